@@ -1,0 +1,122 @@
+"""One table that names every quantity: in case files, NetCDF output, metrics, figures and reports.
+
+A quantity's SI unit is what arrays and files hold; its display unit is what people read.
+"""
+
+from dataclasses import dataclass
+
+CELL = ("time", "x", "phi")
+SECTION = ("time", "x")
+RAY = ("time", "x", "phi", "y")
+
+
+@dataclass(frozen=True)
+class Field:
+    """One quantity.
+
+    Attributes
+    ----------
+    name : str
+        Name in files, metrics and case files.
+    symbol : str
+        Symbol in formulas and on axes.
+    label : str
+        Words for captions and CF ``long_name``.
+    unit, display_unit : str
+        SI unit of stored values; unit people read. Both "1" where dimensionless.
+    display_factor : float
+        Display value = stored value × display_factor.
+    dims : tuple of str
+        Dimensions of the stored array; empty for one number per cycle.
+    """
+
+    name: str
+    symbol: str
+    label: str
+    unit: str
+    display_unit: str
+    display_factor: float
+    dims: tuple[str, ...]
+
+
+def _table(*fields: Field) -> dict[str, Field]:
+    return {field.name: field for field in fields}
+
+
+FIELDS = _table(
+    Field("pressure", "P", "pressure", "Pa", "kPa", 1e-3, CELL),
+    Field("radius", "R", "lumen radius", "m", "mm", 1e3, CELL),
+    Field("mean_velocity", "u", "mean velocity along the ray", "m s-1", "cm/s", 1e2, CELL),
+    Field("profile_exponent", "γ", "velocity-profile exponent", "1", "1", 1.0, CELL),
+    Field("sector_flow_rate", "q_φ", "flow rate through one sector", "m3 s-1", "cm³/s", 1e6, CELL),
+    Field("section_flow_rate", "q", "flow rate through the section", "m3 s-1", "cm³/s", 1e6, SECTION),
+    Field("section_pressure", "P̄", "mean pressure over the section", "Pa", "kPa", 1e-3, SECTION),
+    Field("axial_velocity", "v_x", "axial velocity", "m s-1", "cm/s", 1e2, RAY),
+    Field("radial_velocity", "v_r", "radial velocity", "m s-1", "cm/s", 1e2, RAY),
+    Field("azimuthal_velocity", "v_φ", "azimuthal velocity", "m s-1", "cm/s", 1e2, RAY),
+    Field("profile_error", "ε_γ", "relative error of the closest profile", "1", "%", 1e2, CELL),
+    Field("wall_stiffness", "β", "wall stiffness", "Pa m", "N/m", 1.0, ("x", "phi")),
+    Field("systolic_pressure", "P_sys", "systolic pressure", "Pa", "kPa", 1e-3, ()),
+    Field("diastolic_pressure", "P_dia", "diastolic pressure", "Pa", "kPa", 1e-3, ()),
+    Field("pulse_pressure", "P_sys − P_dia", "pulse pressure", "Pa", "kPa", 1e-3, ()),
+    Field("largest_radius", "R_max", "largest lumen radius", "m", "mm", 1e3, ()),
+    Field("least_radius", "R_min", "least lumen radius", "m", "mm", 1e3, ()),
+    Field(
+        "largest_pressure_difference",
+        "max ΔP",
+        "largest difference of section pressure along the artery at one instant",
+        "Pa",
+        "Pa",
+        1.0,
+        (),
+    ),
+    Field(
+        "largest_radius_variation",
+        "max ΔR",
+        "largest difference of radius over the artery at one instant",
+        "m",
+        "μm",
+        1e6,
+        (),
+    ),
+    Field(
+        "phase_lag", "Δt", "lag of the reduced model's outlet flow behind the reference's", "s", "ms", 1e3, ()
+    ),
+    Field("mass_defect", "δ_m", "inflow − outflow − dV/dt, over the inflow", "1", "%", 1e2, ("time",)),
+    Field(
+        "axial_dominance_radial",
+        "|v_r|/v_x",
+        "largest |v_r|/v_x over the ray and the cycle",
+        "1",
+        "1",
+        1.0,
+        ("x", "phi"),
+    ),
+    Field(
+        "axial_dominance_azimuthal",
+        "|v_φ|/v_x",
+        "largest |v_φ|/v_x over the ray and the cycle",
+        "1",
+        "1",
+        1.0,
+        ("x", "phi"),
+    ),
+    Field(
+        "backflow_fraction",
+        "backflow",
+        "share of ray points with v_x ≤ 0 away from the wall",
+        "1",
+        "%",
+        1e2,
+        ("time",),
+    ),
+    Field(
+        "axis_velocity_spread",
+        "δ_axis",
+        "spread over φ of v_x on the axis, over its mean",
+        "1",
+        "%",
+        1e2,
+        SECTION,
+    ),
+)

@@ -1,0 +1,1 @@
+"""One report, in HTML and PDF, from a finished comparison."""

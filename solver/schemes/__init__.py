@@ -1,0 +1,1 @@
+"""Time-stepping schemes: numba kernels on plain float64 arrays in SI units."""

@@ -1,0 +1,1 @@
+"""From a 3D reference to cells, profiles, metrics and bands; the comparison command."""
