@@ -1,0 +1,390 @@
+"""Opens a plot file and answers what it holds."""
+
+import mmap
+import operator
+from functools import lru_cache
+from os import PathLike
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from febio_io.errors import FebioFileError, FebioKeyError, nearest_first
+from febio_io.xplt.container import PAIR, Chunk, Source, children_by_tag, required
+from febio_io.xplt.dictionary import SectionName, Variable, read_dictionary
+from febio_io.xplt.fields import (
+    StateData,
+    Values,
+    find_blocks,
+    locate_variables,
+    read_block,
+    regions_of,
+)
+from febio_io.xplt.index import Section, open_section, read_index
+from febio_io.xplt.mesh import Mesh
+from febio_io.xplt.mesh_reader import read_mesh
+from febio_io.xplt.tags import MAGIC, Tag
+
+OLDEST_VERSION = 0x08
+KNOWN_VERSIONS = (OLDEST_VERSION, *range(0x30, 0x36))
+STATES_KEPT = 4
+
+
+def open_plot(path: str | PathLike[str]) -> "Plot":
+    """Open an FEBio plot file (.xplt).
+
+    Only headers are read: the file is mapped into memory, and values are read when they are asked for.
+    Compressed states are inflated once to find where each ends.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+
+    Returns
+    -------
+    Plot
+        The open file; close it, or use it in a ``with`` statement.
+
+    Raises
+    ------
+    FebioFileError
+        If the file cannot be opened or is no plot file.
+    FebioFormatError
+        If its contents contradict the format.
+    """
+    return Plot(_map_file(Path(path)))
+
+
+def _map_file(path: Path) -> Source:
+    try:
+        with path.open("rb") as file:
+            if not file.seek(0, 2):
+                raise FebioFileError(f"{path}: not an FEBio plot file: it is empty")
+            data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+    except OSError as error:
+        raise FebioFileError(f"{path}: cannot be opened: {error.strerror}") from error
+    start = data[:4]
+    if start == MAGIC.to_bytes(4, "little"):
+        return Source(path, data, "<")
+    if start == MAGIC.to_bytes(4, "big"):
+        return Source(path, data, ">")
+    raise FebioFileError(f"{path}: not an FEBio plot file: it starts with {data[:5]!r}")
+
+
+class Plot:
+    """An open plot file; :func:`open_plot` makes it.
+
+    Parameters
+    ----------
+    source : Source
+        The mapped file.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    version : int
+        Version of the format, e.g. 0x35.
+    software : str
+        The program that wrote the file; empty where it does not say.
+    units : str or None
+        System of units, e.g. "SI"; None where the file has none.
+    compressed : bool
+        Whether any state is compressed, whatever the header says.
+    warnings : tuple of str
+        What is odd about the file, e.g. that it is cut off.
+    times : (n_states,) float64 array
+        Time of each state, in the model's unit; stored in single precision.
+    status : (n_states,) int64 array
+        0: a converged step; 1: the first state of a new mesh; 2: written by another event, which does not
+        mean that it is not converged. 0 throughout before file version 0x31.
+    variables : tuple of Variable
+        The variables, section by section.
+    """
+
+    def __init__(self, source: Source) -> None:
+        self._source: Source | None = source
+        self.path = source.path
+        root = _root(source)
+        parts = children_by_tag(source, root)
+        header = required(source, root, parts, Tag.HEADER)
+        entries = children_by_tag(source, header)
+        self.version = source.integer(required(source, header, entries, Tag.HDR_VERSION))
+        if self.version < OLDEST_VERSION:
+            raise source.error(
+                f"plot file version {self.version:#04x}, the layout of FEBio 1 and 2, is not supported; "
+                "versions from 0x08 on are",
+                header.start,
+                Tag.HDR_VERSION,
+            )
+        self.software = source.counted_text(entries[Tag.HDR_SOFTWARE]) if Tag.HDR_SOFTWARE in entries else ""
+        self.units = source.counted_text(entries[Tag.HDR_UNITS]) if Tag.HDR_UNITS in entries else None
+        self.variables: tuple[Variable, ...] = ()
+        if Tag.DICTIONARY in parts:
+            self.variables = read_dictionary(source, parts[Tag.DICTIONARY])
+        self._read_sections(source, root.end)
+        self._open_state = lru_cache(STATES_KEPT)(self._locate_state)
+        self._open_mesh = lru_cache(None)(self._read_mesh)
+
+    def _read_sections(self, source: Source, start: int) -> None:
+        index = read_index(source, start)
+        self.compressed = any(section.compressed for section in index.sections)
+        self._meshes = [section for section in index.sections if section.tag == Tag.MESH]
+        self._states = [section for section in index.sections if section.tag == Tag.STATE]
+        if not index.sections or index.sections[0].tag != Tag.MESH:
+            what = (
+                "the file is cut off before or in its mesh"
+                if not self._states
+                else "a state before the first mesh"
+            )
+            raise source.error(what, start)
+        meshes_seen = np.cumsum([section.tag == Tag.MESH for section in index.sections])
+        self._mesh_numbers = [
+            int(seen) - 1
+            for seen, section in zip(meshes_seen, index.sections, strict=True)
+            if section.tag == Tag.STATE
+        ]
+        heads = [_read_head(source, section) for section in self._states]
+        self.times: NDArray[np.float64] = np.array([time for time, _ in heads], dtype=np.float64)
+        self.status: NDArray[np.int64] = np.array([status for _, status in heads], dtype=np.int64)
+        self.warnings = tuple(self._oddities(index.cut_at is not None, index.skipped))
+
+    def _oddities(self, cut_off: bool, skipped: tuple[int, ...]) -> list[str]:
+        name, count = self.path.name, len(self._states)
+        found = []
+        if self.version not in KNOWN_VERSIONS:
+            found.append(
+                f"{name} has version {self.version:#04x}; "
+                f"{KNOWN_VERSIONS[0]:#04x} and {KNOWN_VERSIONS[1]:#04x} to {KNOWN_VERSIONS[-1]:#04x} "
+                "are known, and it is read as they are"
+            )
+        if skipped:
+            tags = ", ".join(f"{tag:#010x}" for tag in skipped)
+            found.append(f"{name} has chunks of an unknown kind, which are passed over: {tags}")
+        if cut_off and count:
+            found.append(f"{name} is cut off after state {count}: {count} complete states are used")
+        elif cut_off:
+            found.append(f"{name} is cut off in its first state: it has no complete state")
+        return found
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the file; arrays already read stay valid."""
+        self._source = None
+        self._open_state.cache_clear()
+
+    @property
+    def n_states(self) -> int:
+        """Number of complete states."""
+        return len(self._states)
+
+    @property
+    def n_meshes(self) -> int:
+        """Number of meshes: more than one where FEBio remeshed."""
+        return len(self._meshes)
+
+    @property
+    def mesh(self) -> Mesh:
+        """The first mesh, which is that of state 0."""
+        return self._open_mesh(0)
+
+    def mesh_of(self, state: int) -> Mesh:
+        """Give the mesh that a state refers to.
+
+        Raises
+        ------
+        FebioKeyError
+            If there is no such state.
+        FebioFormatError
+            If the mesh contradicts the format.
+        """
+        return self._open_mesh(self._mesh_numbers[self._state_number(state)])
+
+    def field(
+        self,
+        name: str | Variable,
+        state: int,
+        region: str | int | None = None,
+        *,
+        section: SectionName | None = None,
+    ) -> Values:
+        """Read the values of one variable in one state and region.
+
+        Parameters
+        ----------
+        name : str or Variable
+            The variable. Variables of one section and name count as one: FEBio writes them so for several
+            surfaces.
+        state : int
+            Number of the state, 0-based; negative numbers count from the end.
+        region : str or int, optional
+            Name or number of the domain, surface or edge. Not needed for global and node variables and where
+            only one region has values.
+        section : str, optional
+            Section of the variable, where variables of several sections have the name.
+
+        Returns
+        -------
+        float32 array
+            A copy of the stored values, with a last axis of components unless the variable is a scalar.
+            Before it, node variables have the axis (n_nodes,), global variables none, others by storage:
+            "node" (n_nodes of the region,) in the order of the region's `nodes`; "item" (n_items,), which
+            are elements, faces or lines; "mult" (n_items, nodes_per_item); "region" none.
+
+        Raises
+        ------
+        FebioKeyError
+            If there is no such variable, state or region, or more than one.
+        FebioFormatError
+            If the values' size is not what the variable and the mesh require.
+        """
+        data, mesh, blocks = self._blocks(name, state, section)
+        label = name if isinstance(name, str) else name.name
+        number = self._pick_region(label, data, mesh, blocks, region)
+        owners = [(variable, block) for variable, found in blocks if (block := found.get(number))]
+        if len(owners) > 1:
+            raise FebioKeyError(
+                f"{self.path}: {len(owners)} variables named {label!r} have values in region {number}; "
+                "give one of them from Plot.variables instead of the name"
+            )
+        variable, block = owners[0]
+        return read_block(data, variable, mesh, block)
+
+    def regions(
+        self, name: str | Variable, state: int, *, section: SectionName | None = None
+    ) -> tuple[int, ...]:
+        """Give the numbers of the regions in which a variable has values; 0 for global and node variables.
+
+        Parameters are those of :meth:`field`.
+
+        Raises
+        ------
+        FebioKeyError
+            If there is no such variable or state.
+        FebioFormatError
+            If the values' size is not what the variable and the mesh require.
+        """
+        _, _, blocks = self._blocks(name, state, section)
+        return tuple(sorted({number for _, found in blocks for number in found}))
+
+    def _blocks(
+        self, name: str | Variable, state: int, section: SectionName | None
+    ) -> tuple[StateData, Mesh, list[tuple[Variable, dict[int, Chunk]]]]:
+        variables = (name,) if isinstance(name, Variable) else self._named(name, section)
+        number = self._state_number(state)
+        data, mesh = self._open_state(number), self.mesh_of(number)
+        return data, mesh, [(variable, find_blocks(data, variable, mesh)) for variable in variables]
+
+    def _named(self, name: str, section: SectionName | None) -> tuple[Variable, ...]:
+        candidates = [variable for variable in self.variables if section in (None, variable.section)]
+        named = tuple(variable for variable in candidates if variable.name == name)
+        if not named:
+            kind = f"{section} variable" if section else "variable"
+            known = nearest_first(name, (variable.name for variable in candidates))
+            raise FebioKeyError(f"{self.path}: no {kind} {name!r}; the file has {_listed(known)}")
+        sections = {variable.section: None for variable in named}
+        if len(sections) > 1:
+            raise FebioKeyError(
+                f"{self.path}: variables of several sections are named {name!r}; "
+                f"give one section: {_listed(list(sections))}"
+            )
+        return named
+
+    def _state_number(self, state: int) -> int:
+        number = operator.index(state)
+        if not -self.n_states <= number < self.n_states:
+            have = f"states 0 to {self.n_states - 1}" if self.n_states else "no states"
+            raise FebioKeyError(f"{self.path}: no state {number}; the file has {have}")
+        return number % self.n_states
+
+    def _pick_region(
+        self,
+        label: str,
+        data: StateData,
+        mesh: Mesh,
+        blocks: list[tuple[Variable, dict[int, Chunk]]],
+        wanted: str | int | None,
+    ) -> int:
+        regions = regions_of(blocks[0][0], mesh)
+        present = {number: None for _, found in blocks for number in found}
+        names = {
+            number: region.name if region else "" for number, region in regions.items() if number in present
+        }
+        if wanted is None:
+            matches = list(names)
+        elif isinstance(wanted, str):
+            matches = [number for number, name in names.items() if name == wanted]
+        else:
+            matches = [number for number in names if number == wanted]
+        if len(matches) == 1:
+            return matches[0]
+        raise FebioKeyError(
+            f"{self.path}: {_region_message(label, data.number, names, wanted, len(matches))}"
+        )
+
+    def _locate_state(self, number: int) -> StateData:
+        source, chunk = open_section(self._opened(), self._states[number])
+        return locate_variables(source, chunk, number)
+
+    def _read_mesh(self, number: int) -> Mesh:
+        source, chunk = open_section(self._opened(), self._meshes[number])
+        return read_mesh(source, chunk, self.version)
+
+    def _opened(self) -> Source:
+        if self._source is None:
+            raise FebioFileError(f"{self.path}: the plot file has been closed")
+        return self._source
+
+
+def _root(source: Source) -> Chunk:
+    if len(source.data) < 12:
+        raise source.error("the file is cut off before its header", len(source.data))
+    tag, size = PAIR[source.order].unpack_from(source.data, 4)
+    if tag != Tag.ROOT:
+        raise source.error(f"the first chunk is not the root, {Tag.ROOT:#010x}", 4, tag)
+    if size > len(source.data) - 12:
+        raise source.error("the file is cut off in its header", 4, tag)
+    return Chunk(tag, 12, size)
+
+
+def _read_head(source: Source, section: Section) -> tuple[float, int]:
+    head = Source(source.path, section.head, source.order, section.offset)
+    whole = Chunk(Tag.STATE_HEADER, 0, len(section.head))
+    found = children_by_tag(head, whole)
+    time = head.real(required(head, whole, found, Tag.STATE_TIME))
+    return time, head.integer(found[Tag.STATE_STATUS]) if Tag.STATE_STATUS in found else 0
+
+
+def _region_message(
+    label: str, state: int, names: dict[int, str], wanted: str | int | None, matches: int
+) -> str:
+    have = _listed_regions(names, wanted)
+    if not names:
+        return f"variable {label!r} has no values in state {state}"
+    if wanted is None:
+        return f"variable {label!r} has values in several regions in state {state}; give one: {have}"
+    if matches:
+        return f"variable {label!r} has values in {matches} regions named {wanted!r}; give the number: {have}"
+    return f"variable {label!r} has no values in region {wanted!r} in state {state}; it has some in {have}"
+
+
+def _listed_regions(names: dict[int, str], wanted: str | int | None) -> str:
+    order = list(names)
+    if isinstance(wanted, str):
+        likeness = nearest_first(wanted, names.values())
+        order.sort(key=lambda number: likeness.index(names[number]))
+    return ", ".join(f"{number} ({names[number]})" if names[number] else str(number) for number in order)
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(repr(name) for name in names) if names else "none"
