@@ -1,0 +1,140 @@
+"""Loading a case file: YAML → base and variants → checked cases in SI units."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+from pydantic import ValidationError
+
+from cases.errors import CaseFileError, Problem
+from cases.problems import problems_of
+from cases.schema import Case
+from cases.section import Section
+from cases.values import NAME_PATTERN, Context, Name, Words
+from cases.variants import merge_variant
+from cases.wording import choices, shown, unknown_key
+from cases.yaml_nodes import Node, parse_yaml, read_text
+
+ONLY_VARIANT = "base"
+S = TypeVar("S", bound=Section)
+
+
+@dataclass(frozen=True)
+class CaseFile:
+    """A checked case file.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        The file, as it was given.
+    text : str
+        Its text.
+    name, title : str
+        Its name (letters, digits, - and _) and its title; the title is the name where none is stated.
+    variants : dict of str to Case
+        The cases by name, in the file's order; one named "base" where the file states no variants.
+    """
+
+    path: Path
+    text: str
+    name: str
+    title: str
+    variants: dict[str, Case]
+
+
+class _Heading(Section):
+    """What a file states about itself."""
+
+    name: Name
+    title: Words | None = None
+
+
+CASE_KEYS = tuple(key for key in Case.model_fields if key != "title")
+FILE_KEYS = ("name", "title", *CASE_KEYS, "variants")
+
+
+def load_case_file(path: str | Path) -> CaseFile:
+    """Read and check a case file.
+
+    Files that it names are looked for relative to its folder, then to each folder above.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        The case file (YAML).
+
+    Returns
+    -------
+    CaseFile
+        All values in SI units, angles in radians.
+
+    Raises
+    ------
+    CaseFileError
+        Anything wrong with the file or with a file that it names: a line for each problem, with file,
+        line, key, what was found and what is allowed.
+    """
+    path = Path(path)
+    text = read_text(path)
+    root = parse_yaml(text, path)
+    problems: list[Problem] = _unknown_keys(root)
+    heading = _check(_Heading, _part(root, ("name", "title")), None, problems)
+    overrides = _overrides(root, problems)
+    context = Context(path.resolve().parent, tuple(overrides))
+    base = _part(root, CASE_KEYS)
+    cases: dict[str, Case] = {}
+    for name, override in overrides.items():
+        merged = merge_variant(base, override)
+        title = name if "variants" in root.section or heading is None else heading.title or heading.name
+        titled = Node({"title": Node(title, root.line, "title"), **merged.section}, root.line, root.key)
+        case = _check(Case, titled, context, problems)
+        if case is not None:
+            cases[name] = case
+    if problems or heading is None:
+        raise CaseFileError.of_problems(path, problems)
+    return CaseFile(path, text, heading.name, heading.title or heading.name, cases)
+
+
+def _part(root: Node, keys: tuple[str, ...]) -> Node:
+    """Return a section with some of its keys."""
+    return Node({key: node for key, node in root.section.items() if key in keys}, root.line, root.key)
+
+
+def _check(schema: type[S], node: Node, context: Context | None, problems: list[Problem]) -> S | None:
+    """Return the checked section, or None and more problems."""
+    try:
+        return schema.model_validate(node.plain(), context=context)
+    except ValidationError as error:
+        problems += problems_of(error, schema, node)
+        return None
+
+
+def _unknown_keys(root: Node) -> list[Problem]:
+    return [
+        Problem(node.line, node.key, unknown_key(key, FILE_KEYS))
+        for key, node in root.section.items()
+        if key not in FILE_KEYS
+    ]
+
+
+def _overrides(root: Node, problems: list[Problem]) -> dict[str, Node]:
+    """Return the overrides by variant; one that changes nothing where the file states no variants."""
+    if "variants" not in root.section:
+        return {ONLY_VARIANT: Node({}, root.line, root.key)}
+    variants = root.section["variants"]
+    if not isinstance(variants.value, dict) or not variants.value:
+        message = f"{shown(variants.plain())}; allowed: a section for each variant, under its name"
+        problems.append(Problem(variants.line, variants.key, message))
+        return {}
+    overrides = {}
+    for name, node in variants.value.items():
+        overrides[name] = Node({}, node.line, node.key) if node.value is None else node
+        if re.fullmatch(NAME_PATTERN, name) is None:
+            message = f"variant name {shown(name)}; allowed: letters, digits, - and _"
+            problems.append(Problem(node.line, variants.key, message))
+        if not isinstance(overrides[name].value, dict):
+            message = f"{shown(node.plain())}; allowed: a section with the keys {choices(Case.model_fields)}"
+            problems.append(Problem(node.line, node.key, message))
+            del overrides[name]
+    return overrides

@@ -1,0 +1,403 @@
+"""The schema of a case: every section, its keys and what they may hold. Values are in SI units."""
+
+import math
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Discriminator, Field, Tag, ValidationInfo, field_validator, model_validator
+from pydantic_core.core_schema import ValidatorFunctionWrapHandler
+
+from cases.comparison import Compare
+from cases.section import Section
+from cases.values import (
+    Angle,
+    ExistingFile,
+    Length,
+    LengthFromZero,
+    PositiveAngle,
+    PositiveDensity,
+    PositiveLength,
+    PositivePressure,
+    PositiveResistance,
+    PositiveTime,
+    PositiveViscosity,
+    Pressure,
+    Time,
+    Velocity,
+    WaveformFile,
+    Words,
+    distinct,
+    number,
+    one_of,
+    refused,
+    whole_number,
+    words_of,
+)
+from cases.wording import choices
+
+FULL_TURN = 2.0 * math.pi
+DEFAULT_PERIOD = 1.0
+FEWEST_ROWS = 4
+
+PoissonRatio = number("a number from 0 on, less than 0.5", lambda value: 0 <= value < 0.5)
+Sections = whole_number("a whole number from 3 on", lambda value: value >= 3)
+Rows = whole_number("1, or a whole number from 4 on", lambda value: value == 1 or value >= FEWEST_ROWS)
+Cycles = whole_number("a whole number from 1 on", lambda value: value >= 1)
+
+Axis = Literal["x", "y", "z"]
+Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
+NEXT_AXIS: dict[str, Direction] = {"x": "y", "y": "z", "z": "x"}
+
+
+class Geometry(Section):
+    """The unloaded artery, a straight circular cylinder.
+
+    Attributes
+    ----------
+    length, radius, wall_thickness : float
+        Length L, lumen radius R₀ and wall thickness h in m.
+    """
+
+    length: PositiveLength
+    radius: PositiveLength
+    wall_thickness: PositiveLength
+
+
+class Blood(Section):
+    """Blood, a Newtonian fluid.
+
+    Attributes
+    ----------
+    density : float
+        ρ in kg/m³.
+    viscosity : float
+        Dynamic viscosity μ in Pa s.
+    """
+
+    density: PositiveDensity
+    viscosity: PositiveViscosity
+
+
+class Wall(Section):
+    """The healthy wall.
+
+    Attributes
+    ----------
+    law : str
+        ``thin`` or ``thick``: the stiffness of a thin-walled or of a thick-walled tube.
+    youngs_modulus : float
+        E in Pa.
+    poisson_ratio : float
+        ν in [0, 0.5).
+    reference_pressure : float
+        Transmural pressure P₀ of the unloaded radius in Pa.
+    """
+
+    law: Annotated[Literal["thin", "thick"], one_of(Literal["thin", "thick"])]
+    youngs_modulus: PositivePressure
+    poisson_ratio: Annotated[float, PoissonRatio]
+    reference_pressure: Pressure = 0.0
+
+
+class AxialTransition(Section):
+    """Smooth axial ends of a calcification: `x` is the transition length ξ^x in m."""
+
+    x: PositiveLength
+
+
+class PatchTransition(Section):
+    """Smooth edges of a patch: transition length ξ^x in m, transition angle ξ^φ in rad."""
+
+    x: PositiveLength
+    phi: PositiveAngle
+
+
+def _transition_tag(value: object) -> str:
+    return "smooth" if isinstance(value, dict | Section) else "sharp"
+
+
+Sharp = Annotated[Literal["sharp"], one_of(Literal["sharp"]), Tag("sharp")]
+
+
+class NoCalcification(Section):
+    """A healthy wall everywhere."""
+
+    pattern: Literal["none"]
+
+
+class AxisymmetricCalcification(Section):
+    """A calcified ring.
+
+    Attributes
+    ----------
+    youngs_modulus : float
+        E of the calcified wall in Pa.
+    x : tuple of float
+        First and last position (x1, x2) in m, 0 ≤ x1 < x2.
+    transition : "sharp" or AxialTransition
+        How its ends meet the healthy wall.
+    """
+
+    pattern: Literal["axisymmetric"]
+    youngs_modulus: PositivePressure
+    x: tuple[LengthFromZero, LengthFromZero]
+    transition: Annotated[Sharp | Annotated[AxialTransition, Tag("smooth")], Discriminator(_transition_tag)]
+
+    @field_validator("x")
+    @classmethod
+    def _x(cls, x: tuple[float, float]) -> tuple[float, float]:
+        return _increasing(x)
+
+
+class LocalCalcification(Section):
+    """A calcified patch.
+
+    Attributes
+    ----------
+    youngs_modulus : float
+        E of the calcified wall in Pa.
+    x : tuple of float
+        First and last position (x1, x2) in m, 0 ≤ x1 < x2.
+    phi : tuple of float
+        First and last angle (φ1, φ2) in rad, in [0, 2π]; with φ1 > φ2 the patch crosses φ = 0.
+    transition : "sharp" or PatchTransition
+        How its edges meet the healthy wall.
+    """
+
+    pattern: Literal["local"]
+    youngs_modulus: PositivePressure
+    x: tuple[LengthFromZero, LengthFromZero]
+    phi: tuple[Angle, Angle]
+    transition: Annotated[Sharp | Annotated[PatchTransition, Tag("smooth")], Discriminator(_transition_tag)]
+
+    @field_validator("x")
+    @classmethod
+    def _x(cls, x: tuple[float, float]) -> tuple[float, float]:
+        return _increasing(x)
+
+    @field_validator("phi")
+    @classmethod
+    def _phi(cls, phi: tuple[float, float]) -> tuple[float, float]:
+        for item, angle in enumerate(phi):
+            if not 0.0 <= angle <= FULL_TURN:
+                raise refused(f"{math.degrees(angle):g} deg", "an angle from 0 to 360 deg", key=(item,))
+        if phi[0] == phi[1] or phi == (FULL_TURN, 0.0):
+            found = " to ".join(f"{math.degrees(angle):g} deg" for angle in phi)
+            raise refused(found, "a first and a last angle with a patch between them")
+        return phi
+
+
+def _increasing(x: tuple[float, float]) -> tuple[float, float]:
+    if not x[0] < x[1]:
+        raise refused(f"{x[0]:g} m to {x[1]:g} m", "a first position below the last one")
+    return x
+
+
+def _pattern(value: object) -> str | None:
+    pattern = value.get("pattern") if isinstance(value, dict) else getattr(value, "pattern", None)
+    return pattern if isinstance(pattern, str) else None
+
+
+Calcification = (
+    Annotated[NoCalcification, Tag("none")]
+    | Annotated[AxisymmetricCalcification, Tag("axisymmetric")]
+    | Annotated[LocalCalcification, Tag("local")]
+)
+
+
+def _default_period(inlet: dict[str, Any]) -> float:
+    waveform = inlet.get("waveform")
+    return DEFAULT_PERIOD if waveform is None else float(waveform.period)
+
+
+class VelocityInlet(Section):
+    """A prescribed mean velocity.
+
+    Attributes
+    ----------
+    waveform : Waveform or None
+        Mean velocity over one cycle.
+    value : float or None
+        Constant mean velocity in m/s. Exactly one of `waveform` and `value` is stated.
+    period : float
+        Duration of a cycle in s: the waveform's, or the one stated beside `value` (1 s by default).
+    """
+
+    kind: Annotated[Literal["velocity"], one_of(Literal["velocity"])]
+    waveform: WaveformFile | None = None
+    value: Velocity | None = None
+    period: PositiveTime = Field(default_factory=_default_period)
+
+    @field_validator("period", mode="wrap")
+    @classmethod
+    def _period(cls, stated: object, check: ValidatorFunctionWrapHandler, info: ValidationInfo) -> float:
+        if info.data.get("waveform") is not None:
+            raise refused(stated, "no period beside a waveform, which has its own")
+        return float(check(stated))
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        if (self.waveform is None) == (self.value is None):
+            found = "neither waveform nor value" if self.value is None else "waveform and value"
+            raise refused(found, "exactly one of waveform and value")
+        return self
+
+
+class ResistanceOutlet(Section):
+    """A terminal resistance: P = P_res + R_res q.
+
+    Attributes
+    ----------
+    resistance, offset : float
+        R_res in Pa s/m³ and P_res in Pa.
+    flow : str
+        What q is: the flow rate of the whole ``section``, or each ``row``'s own.
+    """
+
+    kind: Annotated[Literal["resistance"], one_of(Literal["resistance"])]
+    resistance: PositiveResistance
+    offset: Pressure
+    flow: Annotated[Literal["section", "row"], one_of(Literal["section", "row"])] = "section"
+
+
+class Solver(Section):
+    """The numerical solution.
+
+    Attributes
+    ----------
+    scheme : str
+        The numerical scheme.
+    n_x, n_phi : int
+        Number of sections along x and of rows along φ.
+    time_step : float
+        Δt in s, at most the inlet's period.
+    cycles : int
+        Number of cycles; results are taken from the last one.
+    closure : str
+        How the velocity profile closes the equations.
+    output_interval : float or None
+        Time between saved states in s, at least the time step.
+    """
+
+    scheme: Annotated[Literal["semi_implicit"], one_of(Literal["semi_implicit"])]
+    n_x: Annotated[int, Sections]
+    n_phi: Annotated[int, Rows]
+    time_step: PositiveTime
+    cycles: Annotated[int, Cycles]
+    closure: Annotated[Literal["average"], one_of(Literal["average"])]
+    output_interval: PositiveTime | None = None
+
+    @field_validator("output_interval")
+    @classmethod
+    def _output_interval(cls, interval: float | None, info: ValidationInfo) -> float | None:
+        time_step = info.data.get("time_step")
+        if interval is not None and time_step is not None and interval < time_step:
+            raise refused(f"{interval:g} s", f"at least the time step ({time_step:g} s)")
+        return interval
+
+
+def _default_phi_zero(reference: dict[str, Any]) -> Direction:
+    return NEXT_AXIS[reference["axis"]]
+
+
+class FebioReference(Section):
+    """A plot file of FEBio, and how its frame lies to the artery's.
+
+    Attributes
+    ----------
+    plot_file : pathlib.Path
+        Absolute path of the .xplt file.
+    axis : str
+        The artery's axis in FEBio's frame, in the direction of flow.
+    origin : tuple of float, shape (3,)
+        FEBio's coordinates of x = 0 on the axis, in m.
+    phi_zero : str
+        Direction of φ = 0, across the axis; by default the next axis of x → y → z → x.
+    time_offset : float
+        FEBio's time at the start of a cycle, in s.
+    lumen, wall : tuple of str or None
+        Names of the domains; found from the materials if None.
+    """
+
+    kind: Annotated[Literal["febio"], one_of(Literal["febio"])]
+    plot_file: ExistingFile
+    axis: Annotated[Axis, one_of(Axis)]
+    origin: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    phi_zero: Annotated[Direction, one_of(Direction)] = Field(default_factory=_default_phi_zero)
+    time_offset: Time = 0.0
+    lumen: tuple[Words, ...] | None = None
+    wall: tuple[Words, ...] | None = None
+
+    @field_validator("phi_zero")
+    @classmethod
+    def _phi_zero(cls, direction: str, info: ValidationInfo) -> str:
+        axis = info.data.get("axis")
+        if direction.removeprefix("-") == axis:
+            raise refused(direction, choices(d for d in words_of(Direction) if d.removeprefix("-") != axis))
+        return direction
+
+    @field_validator("lumen", "wall")
+    @classmethod
+    def _domains(cls, names: tuple[str, ...] | None) -> tuple[str, ...] | None:
+        return names if names is None else distinct(names)
+
+
+class Case(Section):
+    """One complete case: an artery, its boundary conditions, a solver, and what to compare.
+
+    Attributes
+    ----------
+    title : str
+        Title of the variant.
+    geometry, blood, wall, calcification, inlet, outlet, solver : Section
+        See their classes.
+    reference : FebioReference or None
+        The 3D results to compare with.
+    compare : Compare
+        Cells (on the solver's grid), times and bands of the comparison.
+    """
+
+    title: Words
+    geometry: Geometry
+    blood: Blood
+    wall: Wall
+    calcification: Annotated[Calcification, Discriminator(_pattern)]
+    inlet: VelocityInlet
+    outlet: ResistanceOutlet
+    solver: Solver
+    reference: FebioReference | None = None
+    compare: Compare = Field(default=Compare(), validate_default=True)
+
+    @field_validator("calcification")
+    @classmethod
+    def _inside_the_artery(cls, calcification: Calcification, info: ValidationInfo) -> Calcification:
+        geometry = info.data.get("geometry")
+        if geometry is None or isinstance(calcification, NoCalcification):
+            return calcification
+        if calcification.x[1] > geometry.length:
+            found = f"{calcification.x[1]:g} m"
+            raise refused(found, f"at most the artery's length ({geometry.length:g} m)", key=("x", 1))
+        return calcification
+
+    @field_validator("solver")
+    @classmethod
+    def _fits_the_case(cls, solver: Solver, info: ValidationInfo) -> Solver:
+        inlet, calcification = info.data.get("inlet"), info.data.get("calcification")
+        if inlet is not None and solver.time_step > inlet.period:
+            allowed = f"at most the period of the inlet ({inlet.period:g} s)"
+            raise refused(f"{solver.time_step:g} s", allowed, key=("time_step",))
+        if isinstance(calcification, LocalCalcification) and solver.n_phi < FEWEST_ROWS:
+            allowed = f"{FEWEST_ROWS} or more with a local calcification"
+            raise refused(solver.n_phi, allowed, key=("n_phi",))
+        return solver
+
+    @field_validator("compare")
+    @classmethod
+    def _on_the_grid(cls, compare: Compare, info: ValidationInfo) -> Compare:
+        inlet, solver = info.data.get("inlet"), info.data.get("solver")
+        if inlet is None or solver is None:
+            return compare
+        for item, time in enumerate(compare.times):
+            if isinstance(time, float) and time > inlet.period:
+                allowed = f"at most the period of the inlet ({inlet.period:g} s)"
+                raise refused(f"{time:g} s", allowed, key=("times", item))
+        return compare.model_copy(update={"cells": compare.cells.on_grid(solver.n_x, solver.n_phi)})

@@ -1,0 +1,190 @@
+"""The kinds of value that a case file holds, each with the words that say what is allowed."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeVar, get_args
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from cases.errors import QuantityError, RefusedValueError, WaveformError
+from cases.input_files import find_file
+from cases.units import DIMENSIONS, parse_quantity
+from cases.waveform_file import Waveform, read_waveform
+from cases.wording import choices, nearest, shown
+
+T = TypeVar("T")
+Sign = Literal["any", "not negative", "positive"]
+
+
+@dataclass(frozen=True)
+class Context:
+    """What the schema must know beyond the values: where files are looked for, and the file's variants."""
+
+    folder: Path
+    variants: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ValueKind:
+    """How one kind of value is checked; used as `Annotated[type, ValueKind(...)]`.
+
+    Attributes
+    ----------
+    parse : callable
+        From what the file states, and the context or None, to the value; raises `RefusedValueError`.
+    allowed : str
+        What is allowed, in words.
+    json_schema : dict
+        The kind for editors.
+    """
+
+    parse: Callable[[object, Context | None], object]
+    allowed: str
+    json_schema: dict[str, Any]
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Check values by `parse` alone; see pydantic's documentation of custom types."""
+        return core_schema.with_info_plain_validator_function(
+            lambda value, info: self.parse(value, info.context)
+        )
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Describe the value as a case file states it."""
+        return {**self.json_schema, "description": self.allowed}
+
+
+def refused(
+    value: object, allowed: str, reason: str = "", key: tuple[str | int, ...] = ()
+) -> RefusedValueError:
+    """Return the error "found: reason; allowed: …"."""
+    found = f"{shown(value)}: {reason}" if reason else shown(value)
+    return RefusedValueError(f"{found}; allowed: {allowed}", key)
+
+
+def quantity(dimension_name: str, sign: Sign = "any") -> ValueKind:
+    """Return the kind of quantities with a unit; values become floats in SI units."""
+    dimension = DIMENSIONS[dimension_name]
+    name = dimension_name if sign == "any" else f"{sign} {dimension_name}"
+    if sign == "not negative":
+        name = f"{dimension_name} of zero or more"
+    article = "an" if name[0] in "aeiou" else "a"
+    allowed = f'{article} {name}, e.g. "{dimension.example}"'
+
+    def parse(value: object, _context: Context | None) -> float:
+        try:
+            number = parse_quantity(value, dimension)
+        except QuantityError as error:
+            raise refused(value, allowed, str(error)) from error
+        if (sign == "positive" and number <= 0) or (sign == "not negative" and number < 0):
+            raise refused(value, allowed)
+        return number
+
+    return ValueKind(parse, allowed, {"type": "string", "examples": [dimension.example]})
+
+
+def whole_number(allowed: str, is_allowed: Callable[[int], bool]) -> ValueKind:
+    """Return the kind of whole numbers without a unit."""
+
+    def parse(value: object, _context: Context | None) -> int:
+        if not isinstance(value, int) or isinstance(value, bool) or not is_allowed(value):
+            raise refused(value, allowed)
+        return value
+
+    return ValueKind(parse, allowed, {"type": "integer"})
+
+
+def number(allowed: str, is_allowed: Callable[[float], bool]) -> ValueKind:
+    """Return the kind of numbers without a unit; `is_allowed` must refuse what is not finite."""
+
+    def parse(value: object, _context: Context | None) -> float:
+        if not isinstance(value, int | float) or isinstance(value, bool) or not is_allowed(value):
+            raise refused(value, allowed)
+        return float(value)
+
+    return ValueKind(parse, allowed, {"type": "number"})
+
+
+def text(allowed: str, pattern: str) -> ValueKind:
+    """Return the kind of texts that match a pattern in full."""
+
+    def parse(value: object, _context: Context | None) -> str:
+        if not isinstance(value, str) or re.fullmatch(pattern, value) is None:
+            raise refused(value, allowed)
+        return value
+
+    return ValueKind(parse, allowed, {"type": "string"})
+
+
+def one_of(literal: object) -> ValueKind:
+    """Return the kind of words that a `Literal`, or a union of such, lists."""
+    words = words_of(literal)
+    allowed = choices(words)
+
+    def parse(value: object, _context: Context | None) -> str:
+        if not isinstance(value, str) or value not in words:
+            raise RefusedValueError(f"{shown(value)}{nearest(str(value), words)}; allowed: {allowed}")
+        return value
+
+    return ValueKind(parse, allowed, {"enum": list(words)})
+
+
+def words_of(literal: object) -> tuple[str, ...]:
+    """Return the words that a `Literal`, or a union of such, lists."""
+    parts = get_args(literal)
+    return tuple(w for part in parts for w in ((part,) if isinstance(part, str) else words_of(part)))
+
+
+def distinct(items: tuple[T, ...]) -> tuple[T, ...]:
+    """Return a list that is not empty and states nothing twice; refuse any other."""
+    if not items:
+        raise refused(items, "one item or more", "no items")
+    if len(set(items)) < len(items):
+        raise refused(items, "different items", "an item twice")
+    return items
+
+
+def _file(value: object, context: Context | None) -> Path:
+    if not isinstance(value, str) or not value:
+        raise refused(value, "the path of a file")
+    folder = Path.cwd() if context is None else context.folder
+    found = find_file(value, folder)
+    if found is None:
+        raise RefusedValueError(
+            f"{shown(value)}: no such file; looked for in {folder} and the folders above it"
+        )
+    return found
+
+
+def _waveform(value: object, context: Context | None) -> Waveform:
+    path = _file(value, context)
+    try:
+        return read_waveform(path, name=str(value))
+    except WaveformError as error:
+        raise RefusedValueError(str(error)) from error
+
+
+PATH_SCHEMA = {"type": "string", "minLength": 1}
+
+Length = Annotated[float, quantity("length")]
+PositiveLength = Annotated[float, quantity("length", "positive")]
+LengthFromZero = Annotated[float, quantity("length", "not negative")]
+Time = Annotated[float, quantity("time")]
+PositiveTime = Annotated[float, quantity("time", "positive")]
+Velocity = Annotated[float, quantity("velocity")]
+Pressure = Annotated[float, quantity("pressure")]
+PositivePressure = Annotated[float, quantity("pressure", "positive")]
+PositiveDensity = Annotated[float, quantity("density", "positive")]
+PositiveViscosity = Annotated[float, quantity("viscosity", "positive")]
+PositiveResistance = Annotated[float, quantity("resistance", "positive")]
+Angle = Annotated[float, quantity("angle")]
+PositiveAngle = Annotated[float, quantity("angle", "positive")]
+Words = Annotated[str, text("a text", r"(?s).*\S.*")]
+NAME_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_-]*"
+Name = Annotated[str, text("letters, digits, - and _, e.g. axisymmetric", NAME_PATTERN)]
+ExistingFile = Annotated[Path, ValueKind(_file, "the path of a file", PATH_SCHEMA)]
+WaveformFile = Annotated[Waveform, ValueKind(_waveform, "the path of a waveform (.csv)", PATH_SCHEMA)]

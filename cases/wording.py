@@ -1,0 +1,40 @@
+"""How messages show what was found and suggest what was meant."""
+
+import difflib
+from collections.abc import Iterable
+
+LONGEST_SHOWN = 60
+
+
+def shown(value: object) -> str:
+    """Show a value of a case file in a message, cut where it is long."""
+    match value:
+        case None | "":
+            return "nothing"
+        case bool():
+            return str(value).lower()
+        case dict():
+            return "a section"
+        case list() | tuple():
+            return "a list"
+        case _:
+            text = " ".join(str(value).split())
+            return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 1] + "…"
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Return "; did you mean …?" for the known word closest to one, or nothing if none is close."""
+    folded = {candidate.casefold(): candidate for candidate in reversed(list(known))}
+    close = difflib.get_close_matches(word.casefold(), folded, n=1, cutoff=0.6)
+    return f"; did you mean {folded[close[0]]}?" if close else ""
+
+
+def choices(words: Iterable[str]) -> str:
+    """Join the allowed words for a message."""
+    return ", ".join(words)
+
+
+def unknown_key(key: str, known: Iterable[str]) -> str:
+    """Return the message for a key that a section does not have."""
+    keys = list(known)
+    return f"unknown key {shown(key)}{nearest(key, keys)}; allowed: {choices(keys)}"

@@ -1,0 +1,188 @@
+"""A YAML file as a tree whose every value knows its line and its key."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ruamel.yaml import YAML
+from ruamel.yaml.error import MarkedYAMLError, YAMLError
+from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
+from ruamel.yaml.nodes import Node as YamlNode
+
+from cases.errors import CaseFileError, Problem
+
+Scalar = str | int | float | bool | None
+LARGEST_FILE = 1_000_000
+TAG = "tag:yaml.org,2002:"
+
+
+@dataclass(frozen=True)
+class Node:
+    """A value of a case file and the place where it stands.
+
+    Attributes
+    ----------
+    value : scalar, dict of str to Node, or list of Node
+        The value; sections and lists hold nodes again.
+    line : int
+        Line counted from 1: of a scalar itself, of the key that opens a section or a list.
+    key : str
+        The key as the file states it, e.g. ``variants.local.calcification.x``; items count from 1.
+    """
+
+    value: "Scalar | dict[str, Node] | list[Node]"
+    line: int
+    key: str
+
+    @property
+    def section(self) -> "dict[str, Node]":
+        """The keys of a section; none where the value is no section."""
+        return self.value if isinstance(self.value, dict) else {}
+
+    def plain(self) -> object:
+        """Return the value without places: dictionaries, lists and scalars."""
+        match self.value:
+            case dict() as section:
+                return {key: node.plain() for key, node in section.items()}
+            case list() as items:
+                return [node.plain() for node in items]
+            case scalar:
+                return scalar
+
+    def find(self, path: tuple[str | int, ...]) -> "Node":
+        """Return the node at a path; where keys are missing, the line of the section that lacks them."""
+        node = self
+        for depth, part in enumerate(path):
+            below = node._child(part)
+            if below is None:
+                return Node(None, node.line, join(node.key, *path[depth:]))
+            node = below
+        return node
+
+    def _child(self, part: str | int) -> "Node | None":
+        if isinstance(self.value, dict):
+            return self.value.get(str(part))
+        if isinstance(self.value, list) and isinstance(part, int) and part < len(self.value):
+            return self.value[part]
+        return None
+
+
+def join(key: str, *path: str | int) -> str:
+    """Extend a key: ``join("compare", "bands", 0, "limit")`` is ``compare.bands[1].limit``."""
+    for part in path:
+        if isinstance(part, int):
+            key += f"[{part + 1}]"
+        else:
+            key = f"{key}.{part}" if key else part
+    return key
+
+
+def read_text(path: Path) -> str:
+    """Read a case file's text.
+
+    Raises
+    ------
+    CaseFileError
+        The file is missing, a folder, not readable, far too large or not UTF-8.
+    """
+    try:
+        if path.is_dir():
+            raise CaseFileError(path, f"{path}: a folder; allowed: a case file (.yaml)")
+        if path.stat().st_size > LARGEST_FILE:
+            raise CaseFileError(path, f"{path}: larger than {LARGEST_FILE} bytes; not a case file")
+        return path.read_bytes().decode("utf-8-sig")
+    except OSError as error:
+        raise CaseFileError(
+            path, f"{path}: {error.strerror or error}; allowed: a case file (.yaml)"
+        ) from error
+    except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
+        message = f"{path}, line {line}: not UTF-8 text (byte 0x{error.object[error.start]:02x})"
+        raise CaseFileError(path, message) from error
+
+
+def parse_yaml(text: str, path: Path) -> Node:
+    """Parse the text of a case file, whose path is needed for messages only.
+
+    Raises
+    ------
+    CaseFileError
+        Broken YAML, a key stated twice, an anchored section used twice, a tag, or no keys at all.
+    """
+    try:
+        root = YAML(pure=True).compose(text)
+        nodes = None if root is None else _Tree(path).node(root, root.start_mark.line + 1, "")
+    except MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        line = "" if mark is None else f", line {mark.line + 1}"
+        raise CaseFileError(path, f"{path}{line}: broken YAML: {error.problem or error.context}") from error
+    except YAMLError as error:
+        raise CaseFileError(path, f"{path}: broken YAML: {' '.join(str(error).split())}") from error
+    except RecursionError as error:
+        raise CaseFileError(path, f"{path}: sections or lists nested too deeply") from error
+    if nodes is None:
+        raise CaseFileError(path, f"{path}: empty; allowed: a case file (.yaml)")
+    if not isinstance(nodes.value, dict):
+        raise CaseFileError(path, f"{path}, line {nodes.line}: no keys; allowed: a case file (.yaml)")
+    return nodes
+
+
+class _Tree:
+    """Turns composed YAML nodes into ours; remembers the sections and lists that it has met."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.met: set[int] = set()
+
+    def node(self, yaml: YamlNode, line: int, key: str) -> Node:
+        """Convert one YAML node; `line` is that of the key which opens it."""
+        if isinstance(yaml, ScalarNode):
+            return Node(self.scalar(yaml, key), yaml.start_mark.line + 1, key)
+        if id(yaml) in self.met:
+            raise self.refused(line, key, "an anchor used twice; allowed: variants, or the values themselves")
+        self.met.add(id(yaml))
+        if isinstance(yaml, MappingNode) and yaml.tag == TAG + "map":
+            return Node(dict(self.entries(yaml, key)), line, key)
+        if isinstance(yaml, SequenceNode) and yaml.tag == TAG + "seq":
+            items = enumerate(yaml.value)
+            return Node([self.node(v, v.start_mark.line + 1, join(key, k)) for k, v in items], line, key)
+        raise self.refused(line, key, f"the YAML tag {yaml.tag}; allowed: no tags")
+
+    def entries(self, yaml: MappingNode, key: str) -> Iterator[tuple[str, Node]]:
+        """Yield the keys of a section with their nodes."""
+        lines: dict[str, int] = {}
+        for name, value in yaml.value:
+            line = name.start_mark.line + 1
+            if not isinstance(name, ScalarNode) or name.tag == TAG + "merge":
+                raise self.refused(line, key, "a YAML merge or compound key; allowed: plain keys")
+            if name.value in lines:
+                text = f"stated twice, first in line {lines[name.value]}"
+                raise self.refused(line, join(key, name.value), text)
+            lines[name.value] = line
+            yield name.value, self.node(value, line, join(key, name.value))
+
+    def scalar(self, yaml: ScalarNode, key: str) -> Scalar:
+        """Return a scalar's value; only decimal numbers count as numbers."""
+        text: str = yaml.value
+        match str(yaml.tag).removeprefix(TAG):
+            case "null":
+                return None
+            case "bool":
+                return text.lower() == "true"
+            case "int" | "float" as kind:
+                return _number(text, int if kind == "int" else float)
+            case "str" | "timestamp" | "value":
+                return text
+            case tag:
+                raise self.refused(yaml.start_mark.line + 1, key, f"the YAML tag {tag}; allowed: no tags")
+
+    def refused(self, line: int, key: str, message: str) -> CaseFileError:
+        """Return the error for one place of the file."""
+        return CaseFileError.of_problems(self.path, [Problem(line, key or "the whole file", message)])
+
+
+def _number(text: str, kind: type[int] | type[float]) -> int | float | str:
+    try:
+        return kind(text)
+    except ValueError:  # .nan, 0x1F and the like stay text, which the schema refuses where it wants a number
+        return text
