@@ -1,0 +1,84 @@
+"""Where the wall is calcified: one rectangle on (x, φ) with an optional smooth transition (2.2.58–2.2.61)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.grid import Grid
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A calcified rectangle.
+
+    Attributes
+    ----------
+    x : tuple of float
+        Its ends along the artery, m.
+    phi : tuple of float or None
+        Its ends around the artery, rad, from the first to the second in positive direction
+        (the patch may cross φ = 0); None for all around.
+    x_transition, phi_transition : float or None
+        Lengths ξ^x (m) and ξ^φ (rad) of the smooth transition outside; None for a sharp edge.
+    """
+
+    x: tuple[float, float]
+    phi: tuple[float, float] | None = None
+    x_transition: float | None = None
+    phi_transition: float | None = None
+
+
+def _distance_to_interval(
+    value: NDArray[np.float64], first: float, last: float, period: float | None
+) -> NDArray[np.float64]:
+    middle, half = 0.5 * (first + last), 0.5 * (last - first)
+    offset = value - middle
+    if period is not None:
+        offset = (offset + 0.5 * period) % period - 0.5 * period
+    return np.asarray(np.maximum(np.abs(offset) - half, 0.0))
+
+
+def _scaled(distance: NDArray[np.float64], length: float | None) -> NDArray[np.float64]:
+    if length is None:
+        return np.where(distance > 0, np.inf, 0.0)
+    return distance / length
+
+
+def scaled_distance(grid: Grid, patch: Patch) -> NDArray[np.float64]:
+    """Distance d of each cell centre to the patch in units of the transition lengths (2.2.59).
+
+    Returns
+    -------
+    ndarray (n_x, n_phi)
+        0 inside, 1 and more in the healthy wall; infinite outside a sharp edge.
+    """
+    along = _scaled(_distance_to_interval(grid.x, *patch.x, period=None), patch.x_transition)
+    if patch.phi is None:
+        around = np.zeros(grid.n_phi)
+    else:
+        first, last = patch.phi
+        last = last if last > first else last + 2 * np.pi
+        around = _scaled(_distance_to_interval(grid.phi, first, last, 2 * np.pi), patch.phi_transition)
+    return np.hypot(along[:, None], around[None, :])
+
+
+def calcified_stiffness(
+    healthy: float, calcified: float, distance: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """β = (β_H+β_C)/2 − (β_H−β_C)/2 · cos(πd) for d < 1, β_H beyond (2.2.60).
+
+    Parameters
+    ----------
+    healthy, calcified : float
+        β_H and β_C, Pa m.
+    distance : ndarray
+        Scaled distance d to the patch.
+
+    Returns
+    -------
+    ndarray
+        β, Pa m, of the shape of ``distance``.
+    """
+    near = np.minimum(distance, 1.0)
+    return (healthy + calcified) / 2 - (healthy - calcified) / 2 * np.cos(np.pi * near)

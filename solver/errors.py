@@ -1,0 +1,52 @@
+"""What can stop a run of the reduced model, by name."""
+
+
+class SolverError(Exception):
+    """Base of everything the solver raises on purpose."""
+
+
+class ModelError(SolverError):
+    """A parameter of the model is outside what its equations allow."""
+
+
+class RunFailure(SolverError):
+    """The run stopped in a cell.
+
+    Attributes
+    ----------
+    time : float
+        Time reached, s.
+    i, j : int
+        Cell along and around the artery, counted from 1; 0 where the failure belongs to no one cell.
+    """
+
+    reason = "the run failed"
+
+    def __init__(self, time: float, i: int, j: int, detail: str = "") -> None:
+        self.time, self.i, self.j = time, i, j
+        where = f"t = {time:.6g} s" + (f", i = {i}" if i else "") + (f", j = {j}" if j else "")
+        super().__init__(f"{self.reason} at {where}{': ' + detail if detail else ''}")
+
+
+class NoAdmissibleProfile(RunFailure):
+    """The continuity condition has no exponent γ > 0: |u| ≥ |D| or u and D of different sign."""
+
+    reason = "no admissible velocity-profile exponent (the continuity condition needs 0 < u/D < 1)"
+
+
+class WallCollapse(RunFailure):
+    """The wall law gives a radius that is not positive."""
+
+    reason = "the lumen collapsed (radius not positive)"
+
+
+class NotConverged(RunFailure):
+    """The iteration of one implicit step did not converge."""
+
+    reason = "the implicit step did not converge (try a smaller time_step)"
+
+
+class NotFinite(RunFailure):
+    """A field is infinite or not a number."""
+
+    reason = "a field is not finite"

@@ -1,0 +1,102 @@
+"""A finished run as an xarray dataset with CF-style names and units."""
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from cases.fields import FIELDS
+from solver.errors import NoAdmissibleProfile
+from solver.profiles import continuity_exponent
+from solver.schemes.semi_implicit import REST_VELOCITY
+from solver.simulate import Trajectory
+from solver.wall import pressure_from_area
+
+CONVENTIONS = "CF-1.11"
+
+
+def coordinates(time: NDArray[np.float64], x: NDArray[np.float64], phi: NDArray[np.float64]) -> xr.Dataset:
+    """Dataset that holds only the coordinates time (s), x (m) and phi (rad)."""
+    return xr.Dataset(
+        coords={
+            "time": ("time", time, {"units": "s", "long_name": "time"}),
+            "x": ("x", x, {"units": "m", "long_name": "distance from the inlet"}),
+            "phi": ("phi", phi, {"units": "rad", "long_name": "azimuthal angle"}),
+        }
+    )
+
+
+def described(name: str, values: NDArray[np.float64]) -> xr.Variable:
+    """Values as a variable with the dimensions, unit and words of the table of fields."""
+    field = FIELDS[name]
+    return xr.Variable(
+        field.dims, values, {"units": field.unit, "long_name": field.label, "symbol": field.symbol}
+    )
+
+
+def cell_flow(flow: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Q at cell centres, (..., n_x, n_phi), from faces, (..., n_x + 1, n_phi), m³/s."""
+    return np.asarray(0.5 * (flow[..., 1:, :] + flow[..., :-1, :]))
+
+
+def profile_exponent(trajectory: Trajectory, velocity: NDArray[np.float64]) -> NDArray[np.float64]:
+    """γ of every cell by the continuity closure.
+
+    Raises
+    ------
+    NoAdmissibleProfile
+        Where a cell has none.
+    """
+    exponent = continuity_exponent(velocity, REST_VELOCITY)
+    missing = np.argwhere(~np.isfinite(exponent))
+    if missing.size:
+        n, i, j = (int(k) for k in missing[0])
+        raise NoAdmissibleProfile(float(trajectory.times[n]), i + 1, j + 1)
+    return exponent
+
+
+def to_dataset(trajectory: Trajectory) -> xr.Dataset:
+    """Fields of a run at cell centres.
+
+    Returns
+    -------
+    xarray.Dataset
+        pressure, radius, mean_velocity, profile_exponent, sector_flow_rate on (time, x, phi);
+        section_flow_rate, section_pressure on (time, x); wall_stiffness on
+        (x, phi); mass_defect on (time). SI.
+
+    Raises
+    ------
+    NoAdmissibleProfile
+        Where a cell has no exponent γ > 0.
+    """
+    model, grid = trajectory.model, trajectory.model.grid
+    pressure = pressure_from_area(trajectory.area, model.stiffness, model.radius, model.reference_pressure)
+    flow = cell_flow(trajectory.flow)
+    velocity = flow / trajectory.area
+    sector = 0.5 * grid.dphi * flow
+    exponent = profile_exponent(trajectory, velocity)
+    fields = {
+        "pressure": pressure,
+        "radius": np.sqrt(trajectory.area),
+        "mean_velocity": velocity,
+        "profile_exponent": exponent,
+        "sector_flow_rate": sector,
+        "section_flow_rate": sector.sum(axis=-1),
+        "section_pressure": section_mean(pressure, trajectory.area),
+        "wall_stiffness": model.stiffness,
+        "mass_defect": trajectory.mass_defect,
+    }
+    dataset = coordinates(trajectory.times, grid.x, grid.phi)
+    dataset = dataset.assign({name: described(name, values) for name, values in fields.items()})
+    return dataset.assign_attrs(
+        Conventions=CONVENTIONS,
+        scheme="semi_implicit",
+        time_step_s=trajectory.longest_step,
+        steps=trajectory.steps,
+        iteration_sweeps=trajectory.sweeps,
+    )
+
+
+def section_mean(values: NDArray[np.float64], area: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean over the lumen's section, weight A = R² of each row; (..., n_phi) → (...)."""
+    return np.asarray(np.sum(values * area, axis=-1) / np.sum(area, axis=-1))
