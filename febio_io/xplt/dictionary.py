@@ -32,6 +32,7 @@ FIXED_TYPES = {
     4: ("tens4fs", _FOURTH_ORDER),
     5: ("mat3f", tuple(a + b for a, b in product("xyz", repeat=2))),
 }
+LARGEST_ARRAY = 65536  # far above any of FEBio's: its arrays have a member per solute, say
 ARRAYS = {6: ("array", 1), 7: ("array_vec3f", 3)}
 TYPE_NAMES = {code: name for code, (name, *_) in (FIXED_TYPES | ARRAYS).items()}
 FIXED_COMPONENTS = dict(FIXED_TYPES.values())
@@ -140,7 +141,7 @@ def _read_item(source: Source, item: Chunk, section: SectionName, index: int) ->
     type_code = source.integer(required(source, item, parts, Tag.ITEM_TYPE))
     storage_code = source.integer(required(source, item, parts, Tag.ITEM_FORMAT))
     array_size = source.integer(parts[Tag.ITEM_ARRAY_SIZE]) if Tag.ITEM_ARRAY_SIZE in parts else 0
-    if array_size < 0:
+    if not 0 <= array_size <= LARGEST_ARRAY:
         raise source.error(f"an array of {array_size} values", item.start, Tag.ITEM_ARRAY_SIZE)
     # Old files have "name=alias".
     name = source.fixed_text(required(source, item, parts, Tag.ITEM_NAME)).rpartition("=")[2]

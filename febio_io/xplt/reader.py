@@ -1,7 +1,5 @@
 """Opens a plot file and answers what it holds."""
 
-import mmap
-import operator
 from functools import lru_cache
 from os import PathLike
 from pathlib import Path
@@ -11,9 +9,9 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from febio_io.errors import FebioFileError, FebioKeyError, nearest_first
-from febio_io.xplt.container import PAIR, Chunk, Source, children_by_tag, required
-from febio_io.xplt.dictionary import SectionName, Variable, read_dictionary
+from febio_io.errors import FebioFileError, FebioKeyError
+from febio_io.xplt.container import Chunk, Source, children_by_tag, required
+from febio_io.xplt.dictionary import SectionName, Variable
 from febio_io.xplt.fields import (
     StateData,
     Values,
@@ -23,11 +21,12 @@ from febio_io.xplt.fields import (
     regions_of,
 )
 from febio_io.xplt.index import Section, open_section, read_index
+from febio_io.xplt.lookup import find_region, find_state, find_variables
 from febio_io.xplt.mesh import Mesh
 from febio_io.xplt.mesh_reader import read_mesh
-from febio_io.xplt.tags import MAGIC, Tag
+from febio_io.xplt.root import OLDEST_VERSION, map_file, read_root
+from febio_io.xplt.tags import Tag
 
-OLDEST_VERSION = 0x08
 KNOWN_VERSIONS = (OLDEST_VERSION, *range(0x30, 0x36))
 STATES_KEPT = 4
 
@@ -55,23 +54,7 @@ def open_plot(path: str | PathLike[str]) -> "Plot":
     FebioFormatError
         If its contents contradict the format.
     """
-    return Plot(_map_file(Path(path)))
-
-
-def _map_file(path: Path) -> Source:
-    try:
-        with path.open("rb") as file:
-            if not file.seek(0, 2):
-                raise FebioFileError(f"{path}: not an FEBio plot file: it is empty")
-            data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
-    except OSError as error:
-        raise FebioFileError(f"{path}: cannot be opened: {error.strerror}") from error
-    start = data[:4]
-    if start == MAGIC.to_bytes(4, "little"):
-        return Source(path, data, "<")
-    if start == MAGIC.to_bytes(4, "big"):
-        return Source(path, data, ">")
-    raise FebioFileError(f"{path}: not an FEBio plot file: it starts with {data[:5]!r}")
+    return Plot(map_file(Path(path)))
 
 
 class Plot:
@@ -108,23 +91,9 @@ class Plot:
     def __init__(self, source: Source) -> None:
         self._source: Source | None = source
         self.path = source.path
-        root = _root(source)
-        parts = children_by_tag(source, root)
-        header = required(source, root, parts, Tag.HEADER)
-        entries = children_by_tag(source, header)
-        self.version = source.integer(required(source, header, entries, Tag.HDR_VERSION))
-        if self.version < OLDEST_VERSION:
-            raise source.error(
-                f"plot file version {self.version:#04x}, the layout of FEBio 1 and 2, is not supported; "
-                "versions from 0x08 on are",
-                header.start,
-                Tag.HDR_VERSION,
-            )
-        self.software = source.counted_text(entries[Tag.HDR_SOFTWARE]) if Tag.HDR_SOFTWARE in entries else ""
-        self.units = source.counted_text(entries[Tag.HDR_UNITS]) if Tag.HDR_UNITS in entries else None
-        self.variables: tuple[Variable, ...] = ()
-        if Tag.DICTIONARY in parts:
-            self.variables = read_dictionary(source, parts[Tag.DICTIONARY])
+        root = read_root(source)
+        self.version, self.software, self.units = root.version, root.software, root.units
+        self.variables = root.variables
         self._read_sections(source, root.end)
         self._open_state = lru_cache(STATES_KEPT)(self._locate_state)
         self._open_mesh = lru_cache(None)(self._read_mesh)
@@ -164,10 +133,11 @@ class Plot:
         if skipped:
             tags = ", ".join(f"{tag:#010x}" for tag in skipped)
             found.append(f"{name} has chunks of an unknown kind, which are passed over: {tags}")
-        if cut_off and count:
-            found.append(f"{name} is cut off after state {count}: {count} complete states are used")
-        elif cut_off:
+        if cut_off and not count:
             found.append(f"{name} is cut off in its first state: it has no complete state")
+        elif cut_off:
+            used = "1 complete state is used" if count == 1 else f"{count} complete states are used"
+            found.append(f"{name} is cut off after state {count}: {used}")
         return found
 
     def __enter__(self) -> Self:
@@ -189,14 +159,14 @@ class Plot:
         return len(self._states)
 
     @property
-    def n_meshes(self) -> int:
-        """Number of meshes: more than one where FEBio remeshed."""
-        return len(self._meshes)
-
-    @property
     def mesh(self) -> Mesh:
         """The first mesh, which is that of state 0."""
         return self._open_mesh(0)
+
+    @property
+    def meshes(self) -> tuple[Mesh, ...]:
+        """All meshes, in the file's order: more than one where FEBio remeshed."""
+        return tuple(self._open_mesh(number) for number in range(len(self._meshes)))
 
     def mesh_of(self, state: int) -> Mesh:
         """Give the mesh that a state refers to.
@@ -208,7 +178,7 @@ class Plot:
         FebioFormatError
             If the mesh contradicts the format.
         """
-        return self._open_mesh(self._mesh_numbers[self._state_number(state)])
+        return self._open_mesh(self._mesh_numbers[find_state(self.path, self.n_states, state)])
 
     def field(
         self,
@@ -249,13 +219,16 @@ class Plot:
             If the values' size is not what the variable and the mesh require.
         """
         data, mesh, blocks = self._blocks(name, state, section)
-        label = name if isinstance(name, str) else name.name
-        number = self._pick_region(label, data, mesh, blocks, region)
-        owners = [(variable, block) for variable, found in blocks if (block := found.get(number))]
+        label = f"variable {blocks[0][0].name!r} in state {data.number}"
+        regions = regions_of(blocks[0][0], mesh)
+        present = {number for _, found in blocks for number in found}
+        names = {key: value.name if value else "" for key, value in regions.items() if key in present}
+        number = find_region(self.path, label, names, region)
+        owners = [(variable, found[number]) for variable, found in blocks if number in found]
         if len(owners) > 1:
             raise FebioKeyError(
-                f"{self.path}: {len(owners)} variables named {label!r} have values in region {number}; "
-                "give one of them from Plot.variables instead of the name"
+                f"{self.path}: {len(owners)} variables of this name have values in region {number}: "
+                f"{label}; give one of Plot.variables instead of the name"
             )
         variable, block = owners[0]
         return read_block(data, variable, mesh, block)
@@ -280,57 +253,10 @@ class Plot:
     def _blocks(
         self, name: str | Variable, state: int, section: SectionName | None
     ) -> tuple[StateData, Mesh, list[tuple[Variable, dict[int, Chunk]]]]:
-        variables = (name,) if isinstance(name, Variable) else self._named(name, section)
-        number = self._state_number(state)
+        variables = find_variables(self.path, self.variables, name, section)
+        number = find_state(self.path, self.n_states, state)
         data, mesh = self._open_state(number), self.mesh_of(number)
         return data, mesh, [(variable, find_blocks(data, variable, mesh)) for variable in variables]
-
-    def _named(self, name: str, section: SectionName | None) -> tuple[Variable, ...]:
-        candidates = [variable for variable in self.variables if section in (None, variable.section)]
-        named = tuple(variable for variable in candidates if variable.name == name)
-        if not named:
-            kind = f"{section} variable" if section else "variable"
-            known = nearest_first(name, (variable.name for variable in candidates))
-            raise FebioKeyError(f"{self.path}: no {kind} {name!r}; the file has {_listed(known)}")
-        sections = {variable.section: None for variable in named}
-        if len(sections) > 1:
-            raise FebioKeyError(
-                f"{self.path}: variables of several sections are named {name!r}; "
-                f"give one section: {_listed(list(sections))}"
-            )
-        return named
-
-    def _state_number(self, state: int) -> int:
-        number = operator.index(state)
-        if not -self.n_states <= number < self.n_states:
-            have = f"states 0 to {self.n_states - 1}" if self.n_states else "no states"
-            raise FebioKeyError(f"{self.path}: no state {number}; the file has {have}")
-        return number % self.n_states
-
-    def _pick_region(
-        self,
-        label: str,
-        data: StateData,
-        mesh: Mesh,
-        blocks: list[tuple[Variable, dict[int, Chunk]]],
-        wanted: str | int | None,
-    ) -> int:
-        regions = regions_of(blocks[0][0], mesh)
-        present = {number: None for _, found in blocks for number in found}
-        names = {
-            number: region.name if region else "" for number, region in regions.items() if number in present
-        }
-        if wanted is None:
-            matches = list(names)
-        elif isinstance(wanted, str):
-            matches = [number for number, name in names.items() if name == wanted]
-        else:
-            matches = [number for number in names if number == wanted]
-        if len(matches) == 1:
-            return matches[0]
-        raise FebioKeyError(
-            f"{self.path}: {_region_message(label, data.number, names, wanted, len(matches))}"
-        )
 
     def _locate_state(self, number: int) -> StateData:
         source, chunk = open_section(self._opened(), self._states[number])
@@ -346,45 +272,9 @@ class Plot:
         return self._source
 
 
-def _root(source: Source) -> Chunk:
-    if len(source.data) < 12:
-        raise source.error("the file is cut off before its header", len(source.data))
-    tag, size = PAIR[source.order].unpack_from(source.data, 4)
-    if tag != Tag.ROOT:
-        raise source.error(f"the first chunk is not the root, {Tag.ROOT:#010x}", 4, tag)
-    if size > len(source.data) - 12:
-        raise source.error("the file is cut off in its header", 4, tag)
-    return Chunk(tag, 12, size)
-
-
 def _read_head(source: Source, section: Section) -> tuple[float, int]:
     head = Source(source.path, section.head, source.order, section.offset)
     whole = Chunk(Tag.STATE_HEADER, 0, len(section.head))
     found = children_by_tag(head, whole)
     time = head.real(required(head, whole, found, Tag.STATE_TIME))
     return time, head.integer(found[Tag.STATE_STATUS]) if Tag.STATE_STATUS in found else 0
-
-
-def _region_message(
-    label: str, state: int, names: dict[int, str], wanted: str | int | None, matches: int
-) -> str:
-    have = _listed_regions(names, wanted)
-    if not names:
-        return f"variable {label!r} has no values in state {state}"
-    if wanted is None:
-        return f"variable {label!r} has values in several regions in state {state}; give one: {have}"
-    if matches:
-        return f"variable {label!r} has values in {matches} regions named {wanted!r}; give the number: {have}"
-    return f"variable {label!r} has no values in region {wanted!r} in state {state}; it has some in {have}"
-
-
-def _listed_regions(names: dict[int, str], wanted: str | int | None) -> str:
-    order = list(names)
-    if isinstance(wanted, str):
-        likeness = nearest_first(wanted, names.values())
-        order.sort(key=lambda number: likeness.index(names[number]))
-    return ", ".join(f"{number} ({names[number]})" if names[number] else str(number) for number in order)
-
-
-def _listed(names: list[str]) -> str:
-    return ", ".join(repr(name) for name in names) if names else "none"
