@@ -1,7 +1,7 @@
 """Loading a case file: YAML → base and variants → checked cases in SI units."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -78,22 +78,46 @@ def load_case_file(path: str | Path) -> CaseFile:
     path = Path(path)
     text = read_text(path)
     root = parse_yaml(text, path)
-    problems: list[Problem] = _unknown_keys(root)
+    problems = _unknown_keys(root)
     heading = _check(_Heading, _part(root, ("name", "title")), None, problems)
     overrides = _overrides(root, problems)
-    context = Context(path.resolve().parent, tuple(overrides))
-    base = _part(root, CASE_KEYS)
-    cases: dict[str, Case] = {}
-    for name, override in overrides.items():
-        merged = merge_variant(base, override)
-        title = name if "variants" in root.section or heading is None else heading.title or heading.name
-        titled = Node({"title": Node(title, root.line, "title"), **merged.section}, root.line, root.key)
-        case = _check(Case, titled, context, problems)
-        if case is not None:
-            cases[name] = case
+    cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides)), problems)
     if problems or heading is None:
         raise CaseFileError.of_problems(path, problems)
     return CaseFile(path, text, heading.name, heading.title or heading.name, cases)
+
+
+def _cases(
+    root: Node, overrides: dict[str, Node], context: Context, problems: list[Problem]
+) -> dict[str, Case]:
+    """Return the checked cases by variant; add what is wrong to the problems."""
+    base = _part(root, CASE_KEYS)
+    cases = {}
+    found: dict[Problem, list[str]] = {}
+    for name, override in overrides.items():
+        merged = merge_variant(base, override)
+        title = Node(name, root.line, "title") if "variants" in root.section else _title(root)
+        wrong: list[Problem] = []
+        case = _check(Case, Node({"title": title, **merged.section}, root.line, root.key), context, wrong)
+        if case is not None:
+            cases[name] = case
+        for problem in wrong:
+            found.setdefault(problem, []).append(name)
+    problems += [_of_variants(problem, names, len(overrides)) for problem, names in found.items()]
+    return cases
+
+
+def _of_variants(problem: Problem, names: list[str], count: int) -> Problem:
+    """Name the variants in a problem that stands in the base but not in all variants."""
+    if problem.key.startswith("variants.") or len(names) == count:
+        return problem
+    return replace(problem, message=f"{problem.message} (variant {choices(names)})")
+
+
+def _title(root: Node) -> Node:
+    """Return the title of a file's only case."""
+    stated = root.section.get("title")
+    return Node(ONLY_VARIANT, root.line, "title") if stated is None else stated
 
 
 def _part(root: Node, keys: tuple[str, ...]) -> Node:

@@ -5,12 +5,12 @@ from typing import Annotated, Literal
 
 from pydantic import ValidationInfo, field_validator
 
-from cases.errors import QuantityError
+from cases.errors import QuantityError, RefusedValueError
 from cases.fields import FIELDS
 from cases.section import Section
 from cases.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity, parse_ratio
 from cases.values import Context, ValueKind, Words, distinct, one_of, refused, whole_number, words_of
-from cases.wording import choices
+from cases.wording import choices, not_one_of
 
 # quantities that the reduced model and a reference both have
 ComparedQuantity = Literal[
@@ -60,7 +60,7 @@ def _instant(value: object, _context: Context | None) -> str | float:
 def _variant(value: object, context: Context | None) -> str:
     known = () if context is None else context.variants
     if not isinstance(value, str) or (known and value not in known):
-        raise refused(value, choices(known) or "the names of variants")
+        raise RefusedValueError(not_one_of(value, known))
     return value
 
 
@@ -101,7 +101,7 @@ class Cells(Section):
             for item, cell in enumerate(getattr(self, axis)):
                 if cell > counts[axis]:
                     name = {"i": "n_x", "j": "n_phi"}[axis]
-                    raise refused(cell, f"1 to {counts[axis]} (solver.{name})", key=(axis, item))
+                    raise refused(cell, f"1 to {counts[axis]} (solver.{name})", key=("cells", axis, item))
         return Cells(
             i=self.i if "i" in self.model_fields_set else nearest_sections(n_x),
             j=self.j if "j" in self.model_fields_set else nearest_rows(n_phi),

@@ -11,7 +11,7 @@ from cases.errors import Problem, RefusedValueError
 from cases.section import Section
 from cases.values import ValueKind
 from cases.variants import DISCRIMINATORS
-from cases.wording import choices, nearest, shown, unknown_key
+from cases.wording import choices, not_one_of, shown, unknown_key
 from cases.yaml_nodes import Node
 
 Path = tuple[str | int, ...]
@@ -47,6 +47,10 @@ def problems_of(error: ValidationError, schema: type[Section], root: Node) -> li
 def _describe(detail: ErrorDetails, path: Path, kind: object) -> tuple[Path, str]:
     """Return the path that a finding blames and its message; `kind` is what the schema wants there."""
     value = detail["input"]
+
+    def discriminator() -> Path:
+        return (*path, DISCRIMINATORS[str(path[-1])])
+
     match detail["type"]:
         case "value_error":
             error = detail["ctx"]["error"]
@@ -56,14 +60,9 @@ def _describe(detail: ErrorDetails, path: Path, kind: object) -> tuple[Path, str
         case "extra_forbidden":
             return path, unknown_key(str(path[-1]), _keys_beside(kind))
         case "union_tag_not_found" if isinstance(value, dict):
-            return (*path, DISCRIMINATORS[str(path[-1])]), f"missing; allowed: {choices(_tags(kind))}"
+            return discriminator(), f"missing; allowed: {choices(_tags(kind))}"
         case "union_tag_invalid":
-            pattern = str(detail["ctx"]["tag"])
-            words = _tags(kind)
-            return (
-                *path,
-                DISCRIMINATORS[str(path[-1])],
-            ), f"{shown(pattern)}{nearest(pattern, words)}; allowed: {choices(words)}"
+            return discriminator(), not_one_of(detail["ctx"]["tag"], _tags(kind))
         case "too_long" | "too_short":
             return path, f"{detail['ctx']['actual_length']} items; allowed: {_allowed(kind)}"
         case _:
@@ -133,5 +132,9 @@ def _allowed(kind: Any) -> str:
     if get_origin(bare) is tuple:
         items = get_args(bare)
         size = "" if items[-1] is ... else f" of {len(items)}"
-        return f"a list{size}, each {_allowed(items[0])}"
-    return ", or ".join(_allowed(member) for member in get_args(bare) if member is not type(None))
+        return f"a list{size}, each item {_allowed(items[0])}"
+    members = [member for member in get_args(bare) if member is not type(None)]
+    if all(_is_section(_bare(member)) for member in members):
+        shared = set.intersection(*(set(_keys_beside(member)) for member in members))
+        return f"a section with the key {choices(shared)} ({choices(_tags(bare))})"
+    return ", or ".join(_allowed(member) for member in members)

@@ -7,32 +7,33 @@ from pydantic import Discriminator, Field, Tag, ValidationInfo, field_validator,
 from pydantic_core.core_schema import ValidatorFunctionWrapHandler
 
 from cases.comparison import Compare
+from cases.reference import FebioReference
 from cases.section import Section
 from cases.values import (
     Angle,
-    ExistingFile,
-    Length,
-    LengthFromZero,
-    PositiveAngle,
-    PositiveDensity,
-    PositiveLength,
-    PositivePressure,
-    PositiveResistance,
-    PositiveTime,
-    PositiveViscosity,
+    ArteryLength,
+    Context,
+    Density,
+    Modulus,
+    Period,
+    Position,
     Pressure,
-    Time,
+    Radius,
+    Resistance,
+    Thickness,
+    TimeStep,
+    TransitionAngle,
+    TransitionLength,
+    ValueKind,
     Velocity,
+    Viscosity,
     WaveformFile,
     Words,
-    distinct,
     number,
     one_of,
     refused,
     whole_number,
-    words_of,
 )
-from cases.wording import choices
 
 FULL_TURN = 2.0 * math.pi
 DEFAULT_PERIOD = 1.0
@@ -42,10 +43,6 @@ PoissonRatio = number("a number from 0 on, less than 0.5", lambda value: 0 <= va
 Sections = whole_number("a whole number from 3 on", lambda value: value >= 3)
 Rows = whole_number("1, or a whole number from 4 on", lambda value: value == 1 or value >= FEWEST_ROWS)
 Cycles = whole_number("a whole number from 1 on", lambda value: value >= 1)
-
-Axis = Literal["x", "y", "z"]
-Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
-NEXT_AXIS: dict[str, Direction] = {"x": "y", "y": "z", "z": "x"}
 
 
 class Geometry(Section):
@@ -57,9 +54,9 @@ class Geometry(Section):
         Length L, lumen radius R₀ and wall thickness h in m.
     """
 
-    length: PositiveLength
-    radius: PositiveLength
-    wall_thickness: PositiveLength
+    length: ArteryLength
+    radius: Radius
+    wall_thickness: Thickness
 
 
 class Blood(Section):
@@ -73,8 +70,8 @@ class Blood(Section):
         Dynamic viscosity μ in Pa s.
     """
 
-    density: PositiveDensity
-    viscosity: PositiveViscosity
+    density: Density
+    viscosity: Viscosity
 
 
 class Wall(Section):
@@ -93,7 +90,7 @@ class Wall(Section):
     """
 
     law: Annotated[Literal["thin", "thick"], one_of(Literal["thin", "thick"])]
-    youngs_modulus: PositivePressure
+    youngs_modulus: Modulus
     poisson_ratio: Annotated[float, PoissonRatio]
     reference_pressure: Pressure = 0.0
 
@@ -101,21 +98,27 @@ class Wall(Section):
 class AxialTransition(Section):
     """Smooth axial ends of a calcification: `x` is the transition length ξ^x in m."""
 
-    x: PositiveLength
+    x: TransitionLength
 
 
 class PatchTransition(Section):
     """Smooth edges of a patch: transition length ξ^x in m, transition angle ξ^φ in rad."""
 
-    x: PositiveLength
-    phi: PositiveAngle
+    x: TransitionLength
+    phi: TransitionAngle
 
 
 def _transition_tag(value: object) -> str:
     return "smooth" if isinstance(value, dict | Section) else "sharp"
 
 
-Sharp = Annotated[Literal["sharp"], one_of(Literal["sharp"]), Tag("sharp")]
+def _sharp(value: object, _context: Context | None) -> str:
+    if value != "sharp":
+        raise refused(value, "sharp, or a section with the transition's lengths")
+    return "sharp"
+
+
+Sharp = Annotated[Literal["sharp"], ValueKind(_sharp, "sharp", {"enum": ["sharp"]}), Tag("sharp")]
 
 
 class NoCalcification(Section):
@@ -138,8 +141,8 @@ class AxisymmetricCalcification(Section):
     """
 
     pattern: Literal["axisymmetric"]
-    youngs_modulus: PositivePressure
-    x: tuple[LengthFromZero, LengthFromZero]
+    youngs_modulus: Modulus
+    x: tuple[Position, Position]
     transition: Annotated[Sharp | Annotated[AxialTransition, Tag("smooth")], Discriminator(_transition_tag)]
 
     @field_validator("x")
@@ -164,8 +167,8 @@ class LocalCalcification(Section):
     """
 
     pattern: Literal["local"]
-    youngs_modulus: PositivePressure
-    x: tuple[LengthFromZero, LengthFromZero]
+    youngs_modulus: Modulus
+    x: tuple[Position, Position]
     phi: tuple[Angle, Angle]
     transition: Annotated[Sharp | Annotated[PatchTransition, Tag("smooth")], Discriminator(_transition_tag)]
 
@@ -225,7 +228,7 @@ class VelocityInlet(Section):
     kind: Annotated[Literal["velocity"], one_of(Literal["velocity"])]
     waveform: WaveformFile | None = None
     value: Velocity | None = None
-    period: PositiveTime = Field(default_factory=_default_period)
+    period: Period = Field(default_factory=_default_period)
 
     @field_validator("period", mode="wrap")
     @classmethod
@@ -254,7 +257,7 @@ class ResistanceOutlet(Section):
     """
 
     kind: Annotated[Literal["resistance"], one_of(Literal["resistance"])]
-    resistance: PositiveResistance
+    resistance: Resistance
     offset: Pressure
     flow: Annotated[Literal["section", "row"], one_of(Literal["section", "row"])] = "section"
 
@@ -281,10 +284,10 @@ class Solver(Section):
     scheme: Annotated[Literal["semi_implicit"], one_of(Literal["semi_implicit"])]
     n_x: Annotated[int, Sections]
     n_phi: Annotated[int, Rows]
-    time_step: PositiveTime
+    time_step: TimeStep
     cycles: Annotated[int, Cycles]
     closure: Annotated[Literal["average"], one_of(Literal["average"])]
-    output_interval: PositiveTime | None = None
+    output_interval: TimeStep | None = None
 
     @field_validator("output_interval")
     @classmethod
@@ -293,52 +296,6 @@ class Solver(Section):
         if interval is not None and time_step is not None and interval < time_step:
             raise refused(f"{interval:g} s", f"at least the time step ({time_step:g} s)")
         return interval
-
-
-def _default_phi_zero(reference: dict[str, Any]) -> Direction:
-    return NEXT_AXIS[reference["axis"]]
-
-
-class FebioReference(Section):
-    """A plot file of FEBio, and how its frame lies to the artery's.
-
-    Attributes
-    ----------
-    plot_file : pathlib.Path
-        Absolute path of the .xplt file.
-    axis : str
-        The artery's axis in FEBio's frame, in the direction of flow.
-    origin : tuple of float, shape (3,)
-        FEBio's coordinates of x = 0 on the axis, in m.
-    phi_zero : str
-        Direction of φ = 0, across the axis; by default the next axis of x → y → z → x.
-    time_offset : float
-        FEBio's time at the start of a cycle, in s.
-    lumen, wall : tuple of str or None
-        Names of the domains; found from the materials if None.
-    """
-
-    kind: Annotated[Literal["febio"], one_of(Literal["febio"])]
-    plot_file: ExistingFile
-    axis: Annotated[Axis, one_of(Axis)]
-    origin: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
-    phi_zero: Annotated[Direction, one_of(Direction)] = Field(default_factory=_default_phi_zero)
-    time_offset: Time = 0.0
-    lumen: tuple[Words, ...] | None = None
-    wall: tuple[Words, ...] | None = None
-
-    @field_validator("phi_zero")
-    @classmethod
-    def _phi_zero(cls, direction: str, info: ValidationInfo) -> str:
-        axis = info.data.get("axis")
-        if direction.removeprefix("-") == axis:
-            raise refused(direction, choices(d for d in words_of(Direction) if d.removeprefix("-") != axis))
-        return direction
-
-    @field_validator("lumen", "wall")
-    @classmethod
-    def _domains(cls, names: tuple[str, ...] | None) -> tuple[str, ...] | None:
-        return names if names is None else distinct(names)
 
 
 class Case(Section):

@@ -16,10 +16,11 @@ if TYPE_CHECKING:
 
 LONGEST_TEXT = 100
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-TERM = r"(?:[^\W\d_][^\W\d_]*[0-9]?[^\W\d_]+|[^\W\d_])(?:\^?-?[0-9])?|°|%"
-QUANTITY = re.compile(rf"({NUMBER})\s*((?:{TERM})(?:\s*[*/·]\s*(?:{TERM})|\s+(?:{TERM}))*)?")
+LETTER = r"[^\W\d_]"
+TERM = rf"(?:{LETTER}+(?:[0-9]{LETTER}+)?(?:\^?-?[0-9])?|°|%)"  # mm, m^3, m3, s-1; cmH2O
+UNIT = re.compile(rf"{TERM}(?:(?:\s*[*/]\s*|\s+){TERM})*")
+BARE_EXPONENT = re.compile(rf"(?<={LETTER})(-?[0-9])(?!\w)")
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·", "0123456789-*")
-BARE_EXPONENT = re.compile(r"(?<=[^\W\d_])(-?[0-9])(?!\w)")
 
 
 @dataclass(frozen=True)
@@ -32,31 +33,27 @@ class Dimension:
         Words for messages.
     unit : str
         SI unit, written as in `cases.fields`.
-    example : str
-        A typical quantity, as a case file states it.
     common_units : tuple of str
         Units to suggest in place of an unknown one.
     """
 
     name: str
     unit: str
-    example: str
     common_units: tuple[str, ...]
 
 
 DIMENSIONS = {
     dimension.name: dimension
     for dimension in (
-        Dimension("length", "m", "15 mm", ("m", "cm", "mm", "µm")),
-        Dimension("time", "s", "1 ms", ("s", "ms", "µs", "min")),
-        Dimension("velocity", "m s-1", "8.4 cm/s", ("m/s", "cm/s", "mm/s")),
-        Dimension("pressure", "Pa", "9330 Pa", ("Pa", "kPa", "MPa", "mmHg", "dyn/cm^2")),
-        Dimension("density", "kg m-3", "1060 kg/m^3", ("kg/m^3", "g/cm^3")),
-        Dimension("viscosity", "Pa s", "0.0035 Pa s", ("Pa s", "mPa s", "kg/m/s", "poise", "cP")),
-        Dimension("flow rate", "m3 s-1", "0.6 cm^3/s", ("m^3/s", "cm^3/s", "ml/s", "ml/min", "l/min")),
-        Dimension("resistance", "Pa s m-3", "1.358e9 Pa s/m^3", ("Pa s/m^3", "mmHg s/ml", "dyn s/cm^5")),
-        Dimension("stiffness", "Pa m", "100 Pa m", ("Pa m", "N/m")),
-        Dimension("angle", "rad", "135 deg", ("deg", "rad")),
+        Dimension("length", "m", ("m", "cm", "mm", "µm")),
+        Dimension("time", "s", ("s", "ms", "µs", "min")),
+        Dimension("velocity", "m s-1", ("m/s", "cm/s", "mm/s")),
+        Dimension("pressure", "Pa", ("Pa", "kPa", "MPa", "mmHg", "dyn/cm^2")),
+        Dimension("density", "kg m-3", ("kg/m^3", "g/cm^3")),
+        Dimension("viscosity", "Pa s", ("Pa s", "mPa s", "kg/m/s", "poise", "cP")),
+        Dimension("flow rate", "m3 s-1", ("m^3/s", "cm^3/s", "ml/s", "ml/min", "l/min")),
+        Dimension("resistance", "Pa s m-3", ("Pa s/m^3", "mmHg s/ml", "dyn s/cm^5")),
+        Dimension("angle", "rad", ("deg", "rad")),
     )
 }
 DIMENSION_OF_UNIT = {dimension.unit: dimension for dimension in DIMENSIONS.values()}
@@ -88,13 +85,13 @@ def parse_quantity(text: object, dimension: Dimension) -> float:
     """
     if isinstance(text, int | float) and not isinstance(text, bool):
         raise QuantityError("no unit")
-    match = QUANTITY.fullmatch(text.strip()) if isinstance(text, str) and len(text) <= LONGEST_TEXT else None
+    match = re.match(NUMBER, text.strip()) if isinstance(text, str) and len(text) <= LONGEST_TEXT else None
     if match is None:
         raise QuantityError("not a number with a unit")
-    number, unit = match.groups()
-    if unit is None:
+    unit = match.string[match.end() :].strip()
+    if not unit:
         raise QuantityError("no unit")
-    return _product(number, _si_factor(unit, dimension))
+    return parse_number(match[0], _si_factor(unit, dimension))
 
 
 def parse_ratio(text: object) -> float:
@@ -107,15 +104,24 @@ def parse_ratio(text: object) -> float:
     """
     if isinstance(text, bool) or not isinstance(text, str | int | float):
         raise QuantityError("not a percentage")
-    match = re.fullmatch(rf"({NUMBER})\s*(%?)", str(text).strip())
-    if match is None or len(str(text)) > LONGEST_TEXT:
+    number, percent, rest = str(text).partition("%")
+    if rest:
         raise QuantityError("not a percentage")
-    return _product(match[1], Decimal("0.01") if match[2] else Decimal(1))
+    return parse_number(number.strip(), Decimal("0.01") if percent else Decimal(1))
 
 
-def _product(number: str, factor: Decimal) -> float:
+def parse_number(text: str, factor: Decimal) -> float:
+    """Convert a decimal number to the float closest to the number times a factor.
+
+    Raises
+    ------
+    QuantityError
+        Not a decimal number, or a value that is not finite.
+    """
+    if len(text) > LONGEST_TEXT or re.fullmatch(NUMBER, text) is None:
+        raise QuantityError("not a number")
     try:
-        value = float(Decimal(number) * factor)
+        value = float(Decimal(text) * factor)
     except decimal.DecimalException as error:
         raise QuantityError("out of range") from error
     if not math.isfinite(value):
@@ -135,16 +141,18 @@ def _registry() -> "pint.UnitRegistry[Decimal]":
 def _base_units(unit: str) -> tuple[Decimal, object]:
     """Return the SI factor of a unit and its base units; raises `pint.errors.PintError`."""
     registry = _registry()
-    written = BARE_EXPONENT.sub(r"^\1", unit.translate(SUPERSCRIPTS))
-    factor, base = registry.get_base_units(registry.parse_units(written))
+    factor, base = registry.get_base_units(registry.parse_units(BARE_EXPONENT.sub(r"^\1", unit)))
     return Decimal(str(factor)), base
 
 
 def _si_factor(unit: str, dimension: Dimension) -> Decimal:
     from pint.errors import PintError
 
+    plain_unit = unit.translate(SUPERSCRIPTS)
+    if UNIT.fullmatch(plain_unit) is None:
+        raise QuantityError("not a number with a unit")
     try:
-        factor, base = _base_units(unit)
+        factor, base = _base_units(plain_unit)
     except PintError as error:
         raise QuantityError(f"unknown unit {shown(unit)}{nearest(unit, dimension.common_units)}") from error
     # base units, not dimensionality: pint counts an angle as dimensionless, and 15 mm rad is no length

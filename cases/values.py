@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar, get_args
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, PlainSerializer
 from pydantic_core import CoreSchema, core_schema
 
 from cases.errors import QuantityError, RefusedValueError, WaveformError
 from cases.input_files import find_file
 from cases.units import DIMENSIONS, parse_quantity
 from cases.waveform_file import Waveform, read_waveform
-from cases.wording import choices, nearest, shown
+from cases.wording import but_allowed, choices, not_one_of, shown
 
 T = TypeVar("T")
 Sign = Literal["any", "not negative", "positive"]
@@ -47,9 +47,11 @@ class ValueKind:
 
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Check values by `parse` alone; see pydantic's documentation of custom types."""
-        return core_schema.with_info_plain_validator_function(
-            lambda value, info: self.parse(value, info.context)
-        )
+
+        def check(value: object, info: core_schema.ValidationInfo[Context | None]) -> object:
+            return self.parse(value, info.context)
+
+        return core_schema.with_info_plain_validator_function(check)
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
@@ -63,17 +65,14 @@ def refused(
 ) -> RefusedValueError:
     """Return the error "found: reason; allowed: …"."""
     found = f"{shown(value)}: {reason}" if reason else shown(value)
-    return RefusedValueError(f"{found}; allowed: {allowed}", key)
+    return RefusedValueError(but_allowed(found, allowed), key)
 
 
-def quantity(dimension_name: str, sign: Sign = "any") -> ValueKind:
+def quantity(dimension_name: str, sign: Sign, example: str) -> ValueKind:
     """Return the kind of quantities with a unit; values become floats in SI units."""
     dimension = DIMENSIONS[dimension_name]
-    name = dimension_name if sign == "any" else f"{sign} {dimension_name}"
-    if sign == "not negative":
-        name = f"{dimension_name} of zero or more"
-    article = "an" if name[0] in "aeiou" else "a"
-    allowed = f'{article} {name}, e.g. "{dimension.example}"'
+    words = {"any": "any {}", "not negative": "a {} of zero or more", "positive": "a positive {}"}[sign]
+    allowed = f'{words.format(dimension_name)}, e.g. "{example}"'
 
     def parse(value: object, _context: Context | None) -> float:
         try:
@@ -84,7 +83,7 @@ def quantity(dimension_name: str, sign: Sign = "any") -> ValueKind:
             raise refused(value, allowed)
         return number
 
-    return ValueKind(parse, allowed, {"type": "string", "examples": [dimension.example]})
+    return ValueKind(parse, allowed, {"type": "string", "examples": [example]})
 
 
 def whole_number(allowed: str, is_allowed: Callable[[int], bool]) -> ValueKind:
@@ -123,14 +122,13 @@ def text(allowed: str, pattern: str) -> ValueKind:
 def one_of(literal: object) -> ValueKind:
     """Return the kind of words that a `Literal`, or a union of such, lists."""
     words = words_of(literal)
-    allowed = choices(words)
 
     def parse(value: object, _context: Context | None) -> str:
         if not isinstance(value, str) or value not in words:
-            raise RefusedValueError(f"{shown(value)}{nearest(str(value), words)}; allowed: {allowed}")
+            raise RefusedValueError(not_one_of(value, words))
         return value
 
-    return ValueKind(parse, allowed, {"enum": list(words)})
+    return ValueKind(parse, choices(words), {"enum": list(words)})
 
 
 def words_of(literal: object) -> tuple[str, ...]:
@@ -168,23 +166,36 @@ def _waveform(value: object, context: Context | None) -> Waveform:
         raise RefusedValueError(str(error)) from error
 
 
+def _samples(waveform: Waveform) -> dict[str, list[float]]:
+    """Return what a waveform says, wherever its file lies."""
+    return {"times": waveform.times.tolist(), "values": waveform.values.tolist()}
+
+
 PATH_SCHEMA = {"type": "string", "minLength": 1}
 
-Length = Annotated[float, quantity("length")]
-PositiveLength = Annotated[float, quantity("length", "positive")]
-LengthFromZero = Annotated[float, quantity("length", "not negative")]
-Time = Annotated[float, quantity("time")]
-PositiveTime = Annotated[float, quantity("time", "positive")]
-Velocity = Annotated[float, quantity("velocity")]
-Pressure = Annotated[float, quantity("pressure")]
-PositivePressure = Annotated[float, quantity("pressure", "positive")]
-PositiveDensity = Annotated[float, quantity("density", "positive")]
-PositiveViscosity = Annotated[float, quantity("viscosity", "positive")]
-PositiveResistance = Annotated[float, quantity("resistance", "positive")]
-Angle = Annotated[float, quantity("angle")]
-PositiveAngle = Annotated[float, quantity("angle", "positive")]
+Length = Annotated[float, quantity("length", "any", "0 mm")]
+ArteryLength = Annotated[float, quantity("length", "positive", "15 mm")]
+Radius = Annotated[float, quantity("length", "positive", "2.5 mm")]
+Thickness = Annotated[float, quantity("length", "positive", "0.5 mm")]
+Position = Annotated[float, quantity("length", "not negative", "5 mm")]
+TransitionLength = Annotated[float, quantity("length", "positive", "2.5 mm")]
+Angle = Annotated[float, quantity("angle", "any", "135 deg")]
+TransitionAngle = Annotated[float, quantity("angle", "positive", "67.5 deg")]
+Time = Annotated[float, quantity("time", "any", "0.2 s")]
+TimeStep = Annotated[float, quantity("time", "positive", "1 ms")]
+Period = Annotated[float, quantity("time", "positive", "0.8 s")]
+Velocity = Annotated[float, quantity("velocity", "any", "8.4 cm/s")]
+Pressure = Annotated[float, quantity("pressure", "any", "9330 Pa")]
+Modulus = Annotated[float, quantity("pressure", "positive", "0.6 MPa")]
+Density = Annotated[float, quantity("density", "positive", "1060 kg/m^3")]
+Viscosity = Annotated[float, quantity("viscosity", "positive", "0.0035 Pa s")]
+Resistance = Annotated[float, quantity("resistance", "positive", "1.358e9 Pa s/m^3")]
 Words = Annotated[str, text("a text", r"(?s).*\S.*")]
 NAME_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_-]*"
 Name = Annotated[str, text("letters, digits, - and _, e.g. axisymmetric", NAME_PATTERN)]
 ExistingFile = Annotated[Path, ValueKind(_file, "the path of a file", PATH_SCHEMA)]
-WaveformFile = Annotated[Waveform, ValueKind(_waveform, "the path of a waveform (.csv)", PATH_SCHEMA)]
+WaveformFile = Annotated[
+    Waveform,
+    ValueKind(_waveform, "the path of a waveform (.csv)", PATH_SCHEMA),
+    PlainSerializer(_samples, when_used="json"),
+]

@@ -1,7 +1,5 @@
 """Waveforms: one cardiac cycle of an inlet quantity, read from a CSV file."""
 
-import csv
-import math
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
@@ -9,7 +7,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.errors import WaveformError
+from cases.errors import QuantityError, WaveformError
+from cases.units import parse_number
 from cases.wording import choices, nearest, shown
 
 # header name → factor to SI; decimal, so that 8.41199 cm/s is the float closest to 0.0841199
@@ -90,7 +89,7 @@ def read_waveform(path: Path, name: str | None = None) -> Waveform:
 def _parse(lines: list[str], path: Path) -> Waveform:
     """Parse the lines of a file; messages start behind the file's name."""
     numbered = [
-        (number, [cell.strip() for cell in next(csv.reader([line]))])
+        (number, [cell.strip() for cell in line.split(",")])
         for number, line in enumerate(lines, start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
@@ -129,18 +128,14 @@ def _row(
     """Return time and value of one row, in SI units."""
     if len(cells) != len(names):
         raise WaveformError(f", line {number}: {len(cells)} columns; allowed: {len(names)}")
-    for name, cell in zip(names, cells, strict=True):
-        if not _is_finite(cell):
-            raise WaveformError(f", line {number}: {name}: {shown(cell)}; allowed: a finite number")
-    time, value = (float(Decimal(cell) * factor) for cell, factor in zip(cells, factors, strict=True))
-    return time, value
-
-
-def _is_finite(cell: str) -> bool:
-    try:
-        return math.isfinite(float(cell))
-    except ValueError:
-        return False
+    values = []
+    for name, cell, factor in zip(names, cells, factors, strict=True):
+        try:
+            values.append(parse_number(cell, factor))
+        except QuantityError as error:
+            found = f"{name}: {shown(cell)}"
+            raise WaveformError(f", line {number}: {found}; allowed: a finite number") from error
+    return values[0], values[1]
 
 
 def _check_cycle(samples: NDArray[np.float64], numbers: list[int]) -> None:

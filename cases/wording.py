@@ -34,7 +34,19 @@ def choices(words: Iterable[str]) -> str:
     return ", ".join(words)
 
 
+def but_allowed(found: str, allowed: str) -> str:
+    """Return "found; allowed: …", or "found; did you mean …? allowed: …"."""
+    return f"{found}{' ' if found.endswith('?') else '; '}allowed: {allowed}"
+
+
 def unknown_key(key: str, known: Iterable[str]) -> str:
     """Return the message for a key that a section does not have."""
     keys = list(known)
-    return f"unknown key {shown(key)}{nearest(key, keys)}; allowed: {choices(keys)}"
+    return but_allowed(f"unknown key {shown(key)}{nearest(key, keys)}", choices(keys))
+
+
+def not_one_of(word: object, known: Iterable[str]) -> str:
+    """Return the message for a value that is none of the known words."""
+    words = list(known)
+    suggestion = nearest(word, words) if isinstance(word, str) else ""
+    return but_allowed(f"{shown(word)}{suggestion}", choices(words))

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ruamel.yaml import YAML
-from ruamel.yaml.error import MarkedYAMLError, YAMLError
+from ruamel.yaml.error import MarkedYAMLError
 from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
 from ruamel.yaml.nodes import Node as YamlNode
+from ruamel.yaml.reader import ReaderError
 
 from cases.errors import CaseFileError, Problem
 
@@ -116,8 +117,11 @@ def parse_yaml(text: str, path: Path) -> Node:
         mark = error.problem_mark or error.context_mark
         line = "" if mark is None else f", line {mark.line + 1}"
         raise CaseFileError(path, f"{path}{line}: broken YAML: {error.problem or error.context}") from error
-    except YAMLError as error:
-        raise CaseFileError(path, f"{path}: broken YAML: {' '.join(str(error).split())}") from error
+    except ReaderError as error:
+        line = text.count("\n", 0, error.position) + 1
+        character = f"U+{ord(text[error.position]):04X}"
+        message = f"{path}, line {line}: broken YAML: the character {character} is not allowed"
+        raise CaseFileError(path, message) from error
     except RecursionError as error:
         raise CaseFileError(path, f"{path}: sections or lists nested too deeply") from error
     if nodes is None:
@@ -137,9 +141,12 @@ class _Tree:
     def node(self, yaml: YamlNode, line: int, key: str) -> Node:
         """Convert one YAML node; `line` is that of the key which opens it."""
         if isinstance(yaml, ScalarNode):
-            return Node(self.scalar(yaml, key), yaml.start_mark.line + 1, key)
+            value = self.scalar(yaml, key)  # one that is left out has no line of its own
+            return Node(value, yaml.start_mark.line + 1 if yaml.value else line, key)
         if id(yaml) in self.met:
-            raise self.refused(line, key, "an anchor used twice; allowed: variants, or the values themselves")
+            raise self.refused(
+                line, key, "an anchored section used again; allowed: variants, or the values themselves"
+            )
         self.met.add(id(yaml))
         if isinstance(yaml, MappingNode) and yaml.tag == TAG + "map":
             return Node(dict(self.entries(yaml, key)), line, key)
