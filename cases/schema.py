@@ -1,30 +1,32 @@
 """The schema of a case: every section, its keys and what they may hold. Values are in SI units."""
 
-import math
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Discriminator, Field, Tag, ValidationInfo, field_validator, model_validator
+from pydantic import Discriminator, Field, ValidationInfo, field_validator, model_validator
 from pydantic_core.core_schema import ValidatorFunctionWrapHandler
 
-from cases.comparison import Compare
+from cases.calcification import (
+    AxialTransition,
+    AxisymmetricCalcification,
+    Calcification,
+    LocalCalcification,
+    NoCalcification,
+    PatchTransition,
+    pattern_of,
+)
+from cases.comparison import Band, Cells, Compare
 from cases.reference import FebioReference
 from cases.section import Section
 from cases.values import (
-    Angle,
     ArteryLength,
-    Context,
     Density,
     Modulus,
     Period,
-    Position,
     Pressure,
     Radius,
     Resistance,
     Thickness,
     TimeStep,
-    TransitionAngle,
-    TransitionLength,
-    ValueKind,
     Velocity,
     Viscosity,
     WaveformFile,
@@ -35,7 +37,26 @@ from cases.values import (
     whole_number,
 )
 
-FULL_TURN = 2.0 * math.pi
+__all__ = [
+    "AxialTransition",
+    "AxisymmetricCalcification",
+    "Band",
+    "Blood",
+    "Calcification",
+    "Case",
+    "Cells",
+    "Compare",
+    "FebioReference",
+    "Geometry",
+    "LocalCalcification",
+    "NoCalcification",
+    "PatchTransition",
+    "ResistanceOutlet",
+    "Solver",
+    "VelocityInlet",
+    "Wall",
+]
+
 DEFAULT_PERIOD = 1.0
 FEWEST_ROWS = 4
 
@@ -93,118 +114,6 @@ class Wall(Section):
     youngs_modulus: Modulus
     poisson_ratio: Annotated[float, PoissonRatio]
     reference_pressure: Pressure = 0.0
-
-
-class AxialTransition(Section):
-    """Smooth axial ends of a calcification: `x` is the transition length ξ^x in m."""
-
-    x: TransitionLength
-
-
-class PatchTransition(Section):
-    """Smooth edges of a patch: transition length ξ^x in m, transition angle ξ^φ in rad."""
-
-    x: TransitionLength
-    phi: TransitionAngle
-
-
-def _transition_tag(value: object) -> str:
-    return "smooth" if isinstance(value, dict | Section) else "sharp"
-
-
-def _sharp(value: object, _context: Context | None) -> str:
-    if value != "sharp":
-        raise refused(value, "sharp, or a section with the transition's lengths")
-    return "sharp"
-
-
-Sharp = Annotated[Literal["sharp"], ValueKind(_sharp, "sharp", {"enum": ["sharp"]}), Tag("sharp")]
-
-
-class NoCalcification(Section):
-    """A healthy wall everywhere."""
-
-    pattern: Literal["none"]
-
-
-class AxisymmetricCalcification(Section):
-    """A calcified ring.
-
-    Attributes
-    ----------
-    youngs_modulus : float
-        E of the calcified wall in Pa.
-    x : tuple of float
-        First and last position (x1, x2) in m, 0 ≤ x1 < x2.
-    transition : "sharp" or AxialTransition
-        How its ends meet the healthy wall.
-    """
-
-    pattern: Literal["axisymmetric"]
-    youngs_modulus: Modulus
-    x: tuple[Position, Position]
-    transition: Annotated[Sharp | Annotated[AxialTransition, Tag("smooth")], Discriminator(_transition_tag)]
-
-    @field_validator("x")
-    @classmethod
-    def _x(cls, x: tuple[float, float]) -> tuple[float, float]:
-        return _increasing(x)
-
-
-class LocalCalcification(Section):
-    """A calcified patch.
-
-    Attributes
-    ----------
-    youngs_modulus : float
-        E of the calcified wall in Pa.
-    x : tuple of float
-        First and last position (x1, x2) in m, 0 ≤ x1 < x2.
-    phi : tuple of float
-        First and last angle (φ1, φ2) in rad, in [0, 2π]; with φ1 > φ2 the patch crosses φ = 0.
-    transition : "sharp" or PatchTransition
-        How its edges meet the healthy wall.
-    """
-
-    pattern: Literal["local"]
-    youngs_modulus: Modulus
-    x: tuple[Position, Position]
-    phi: tuple[Angle, Angle]
-    transition: Annotated[Sharp | Annotated[PatchTransition, Tag("smooth")], Discriminator(_transition_tag)]
-
-    @field_validator("x")
-    @classmethod
-    def _x(cls, x: tuple[float, float]) -> tuple[float, float]:
-        return _increasing(x)
-
-    @field_validator("phi")
-    @classmethod
-    def _phi(cls, phi: tuple[float, float]) -> tuple[float, float]:
-        for item, angle in enumerate(phi):
-            if not 0.0 <= angle <= FULL_TURN:
-                raise refused(f"{math.degrees(angle):g} deg", "an angle from 0 to 360 deg", key=(item,))
-        if phi[0] == phi[1] or phi == (FULL_TURN, 0.0):
-            found = " to ".join(f"{math.degrees(angle):g} deg" for angle in phi)
-            raise refused(found, "a first and a last angle with a patch between them")
-        return phi
-
-
-def _increasing(x: tuple[float, float]) -> tuple[float, float]:
-    if not x[0] < x[1]:
-        raise refused(f"{x[0]:g} m to {x[1]:g} m", "a first position below the last one")
-    return x
-
-
-def _pattern(value: object) -> str | None:
-    pattern = value.get("pattern") if isinstance(value, dict) else getattr(value, "pattern", None)
-    return pattern if isinstance(pattern, str) else None
-
-
-Calcification = (
-    Annotated[NoCalcification, Tag("none")]
-    | Annotated[AxisymmetricCalcification, Tag("axisymmetric")]
-    | Annotated[LocalCalcification, Tag("local")]
-)
 
 
 def _default_period(inlet: dict[str, Any]) -> float:
@@ -317,7 +226,7 @@ class Case(Section):
     geometry: Geometry
     blood: Blood
     wall: Wall
-    calcification: Annotated[Calcification, Discriminator(_pattern)]
+    calcification: Annotated[Calcification, Discriminator(pattern_of)]
     inlet: VelocityInlet
     outlet: ResistanceOutlet
     solver: Solver

@@ -118,9 +118,9 @@ def parse_yaml(text: str, path: Path) -> Node:
         line = "" if mark is None else f", line {mark.line + 1}"
         raise CaseFileError(path, f"{path}{line}: broken YAML: {error.problem or error.context}") from error
     except ReaderError as error:
-        line = text.count("\n", 0, error.position) + 1
+        place = f"{path}, line {text.count(chr(10), 0, error.position) + 1}"
         character = f"U+{ord(text[error.position]):04X}"
-        message = f"{path}, line {line}: broken YAML: the character {character} is not allowed"
+        message = f"{place}: broken YAML: the character {character} is not allowed"
         raise CaseFileError(path, message) from error
     except RecursionError as error:
         raise CaseFileError(path, f"{path}: sections or lists nested too deeply") from error
