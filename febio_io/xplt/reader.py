@@ -1,5 +1,6 @@
 """Opens a plot file and answers what it holds."""
 
+from dataclasses import replace
 from functools import lru_cache
 from os import PathLike
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from febio_io.errors import FebioFileError, FebioKeyError
+from febio_io.errors import FebioFileError, FebioFormatError, FebioKeyError
 from febio_io.xplt.container import Chunk, Source, children_by_tag, required
 from febio_io.xplt.dictionary import SectionName, Variable
 from febio_io.xplt.fields import (
@@ -35,7 +36,8 @@ def open_plot(path: str | PathLike[str]) -> "Plot":
     """Open an FEBio plot file (.xplt).
 
     Only headers are read: the file is mapped into memory, and values are read when they are asked for.
-    Compressed states are inflated once to find where each ends.
+    Compressed states are inflated once to find where each ends. A file that FEBio is still writing may be
+    opened: the states complete by then are used. It must not be shortened or overwritten while it is open.
 
     Parameters
     ----------
@@ -76,7 +78,7 @@ class Plot:
     units : str or None
         System of units, e.g. "SI"; None where the file has none.
     compressed : bool
-        Whether any state is compressed, whatever the header says.
+        Whether any state or later mesh is compressed, whatever the header says.
     warnings : tuple of str
         What is odd about the file, e.g. that it is cut off.
     times : (n_states,) float64 array
@@ -104,12 +106,8 @@ class Plot:
         self._meshes = [section for section in index.sections if section.tag == Tag.MESH]
         self._states = [section for section in index.sections if section.tag == Tag.STATE]
         if not index.sections or index.sections[0].tag != Tag.MESH:
-            what = (
-                "the file is cut off before or in its mesh"
-                if not self._states
-                else "a state before the first mesh"
-            )
-            raise source.error(what, start)
+            cut = "the file is cut off in its mesh" if index.cut_at is not None else "the file has no mesh"
+            raise source.error("a state before the first mesh" if self._states else cut, start)
         meshes_seen = np.cumsum([section.tag == Tag.MESH for section in index.sections])
         self._mesh_numbers = [
             int(seen) - 1
@@ -273,8 +271,15 @@ class Plot:
 
 
 def _read_head(source: Source, section: Section) -> tuple[float, int]:
-    head = Source(source.path, section.head, source.order, section.offset)
+    head = replace(source, data=section.head)
     whole = Chunk(Tag.STATE_HEADER, 0, len(section.head))
-    found = children_by_tag(head, whole)
-    time = head.real(required(head, whole, found, Tag.STATE_TIME))
-    return time, head.integer(found[Tag.STATE_STATUS]) if Tag.STATE_STATUS in found else 0
+    try:
+        found = children_by_tag(head, whole)
+        time = head.real(required(head, whole, found, Tag.STATE_TIME))
+        status = head.integer(found[Tag.STATE_STATUS]) if Tag.STATE_STATUS in found else 0
+    except FebioFormatError as error:
+        # The offset within the header alone would mislead; that of the state does not.
+        raise source.error(
+            "the state's header lacks its time or is damaged", section.offset, Tag.STATE
+        ) from error
+    return time, status

@@ -127,6 +127,13 @@ def with_state(blocks, item=ITEMS[1]):
             "an array of 2147483647",
         ),
         (WRITER.file(WRITER.root(), WRITER.state(0)), "a state before the first mesh"),
+        (WRITER.file(WRITER.root()), "the file has no mesh"),
+        (
+            WRITER.file(
+                WRITER.root(), WRITER.mesh(MESH), WRITER.chunk(Tag.STATE, WRITER.chunk(Tag.STATE_HEADER))
+            ),
+            "header lacks its time",
+        ),
         (WRITER.file(WRITER.root(), WRITER.mesh(MESH), b"no chunk at all"), "neither a mesh, a state nor"),
         (WRITER.file(WRITER.root(), WRITER.mesh(MESH), WRITER.chunk(Tag.STATE)), "a state without a header"),
         (
