@@ -1,0 +1,5 @@
+"""What can go wrong while a report is drawn."""
+
+
+class ReportError(Exception):
+    """A comparison directory cannot be reported; the message names the file and what is wrong in it."""
