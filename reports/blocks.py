@@ -1,0 +1,117 @@
+"""What a report is made of, whatever it is rendered to."""
+
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Literal
+
+ColumnKind = Literal["text", "prose", "number", "status", "code"]
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """One paragraph; `lead` sets the sentence that a hurried reader must see."""
+
+    text: str
+    lead: bool = False
+
+
+@dataclass(frozen=True)
+class Bullets:
+    """Short statements, one a line."""
+
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Text that is shown as it is: a command, a case file."""
+
+    caption: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Column:
+    """A table's column; neighbours of the same `group` share a heading above their own."""
+
+    title: str
+    kind: ColumnKind = "text"
+    group: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of text under captioned columns; a rule separates rows that differ in column `rule_by`."""
+
+    key: str
+    caption: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[str, ...], ...]
+    rule_by: int | None = None
+
+    def groups(self) -> tuple[tuple[str, int], ...]:
+        """Headings above the columns' own, with how many columns each spans; empty if there are none."""
+        spans = tuple((name, len(list(run))) for name, run in groupby(c.group for c in self.columns))
+        return spans if any(name for name, _ in spans) else ()
+
+    def rules(self) -> tuple[bool, ...]:
+        """Whether a rule stands above each row."""
+        if self.rule_by is None:
+            return (False,) * len(self.rows)
+        values = [row[self.rule_by] for row in self.rows]
+        return tuple(k > 0 and values[k] != values[k - 1] for k in range(len(values)))
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A drawing with the words that stand for it and the numbers behind it."""
+
+    key: str
+    caption: str
+    alt: str
+    svg: str
+    csv: str
+
+
+Block = Paragraph | Bullets | Listing | Table | Figure
+
+
+@dataclass(frozen=True)
+class Section:
+    """A numbered section of the report."""
+
+    key: str
+    title: str
+    blocks: tuple["Block | Subsection", ...]
+
+
+@dataclass(frozen=True)
+class Subsection:
+    """A titled part of a section."""
+
+    key: str
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """Everything a rendering needs.
+
+    Attributes
+    ----------
+    title, subtitle : str
+        Heading and the line under it.
+    identity : str
+        What the footer of every page says: case, commit, date.
+    created : str
+        ISO time of the comparison; the only clock a report knows.
+    sections : tuple of Section
+        In reading order.
+    """
+
+    title: str
+    subtitle: str
+    identity: str
+    created: str
+    sections: tuple[Section, ...]

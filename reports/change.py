@@ -1,0 +1,231 @@
+"""Section 2: what calcification changes, in 3D and in 2D."""
+
+from dataclasses import dataclass
+
+from cases.fields import FIELDS, Field
+from reports.blocks import Block, Column, Paragraph, Section, Subsection, Table
+from reports.cells import cell_tables
+from reports.load import Comparison
+from reports.metrics import Row
+from reports.numbers import DIFFERENCE_UNITS, SPACE, decimals_for, fixed, listed, percent, plus, with_unit
+from reports.words import instant, place
+
+_CELL_QUANTITIES = ("pressure", "radius", "sector_flow_rate")
+_NOTICEABLE = 1e-3  # changes below this share of the baseline's own value are not read as a change
+
+
+def _cycle_fields(comparison: Comparison) -> list[Field]:
+    present = {row.quantity for row in comparison.metrics.rows if row.statistic == "cycle" and not row.status}
+    return [field for field in FIELDS.values() if field.name in present]
+
+
+@dataclass(frozen=True)
+class _CycleLine:
+    """One quantity of the whole cycle in one variant: its value and what became of the baseline's."""
+
+    value: Row
+    change: Row | None
+    ratio: Row | None
+
+
+def _cycle_lines(comparison: Comparison, field: Field) -> list[_CycleLine]:
+    find = comparison.metrics.find
+    return [
+        _CycleLine(value, find(variant, field.name, "change"), find(variant, field.name, "ratio"))
+        for variant in comparison.variants
+        if (value := find(variant, field.name, "cycle"))
+    ]
+
+
+def _cycle_table(comparison: Comparison) -> Table | None:
+    rows = [
+        row
+        for field in _cycle_fields(comparison)
+        for row in _cycle_rows(field, _cycle_lines(comparison, field), bool(comparison.baseline))
+    ]
+    if not rows:
+        return None
+    columns = [
+        Column("quantity", "prose"),
+        Column("variant"),
+        Column("unit"),
+        Column("3D", "number", "value"),
+        Column("2D", "number", "value"),
+        Column("error", "number", "value"),
+    ]
+    caption = "Quantities of the whole cycle in both models"
+    if comparison.baseline:
+        columns += [
+            Column("3D", "number", "change"),
+            Column("2D", "number", "change"),
+            Column("3D", "number", "ratio"),
+            Column("2D", "number", "ratio"),
+        ]
+        caption += (
+            ", and how calcification changes them: minus and over the value of variant "
+            f"{comparison.baseline}. The 2D model gets calcification right where its change, not only "
+            "its value, is that of 3D"
+        )
+    return Table("cycle-quantities", f"{caption}.", tuple(columns), tuple(rows), rule_by=0)
+
+
+def _both(row: Row | None, factor: float = 1.0) -> tuple[float | None, float | None]:
+    """3D and 2D of a row, in display units."""
+    if row is None:
+        return None, None
+    three, two = row.reference, row.rom
+    return None if three is None else factor * three, None if two is None else factor * two
+
+
+def _cycle_rows(field: Field, lines: list[_CycleLine], with_change: bool) -> list[tuple[str, ...]]:
+    """Rows of one quantity: values to four digits, changes with common decimals."""
+    values = [_both(line.value, field.display_factor) for line in lines]
+    changes = [_both(line.change, field.display_factor) for line in lines]
+    ratios = [_both(line.ratio) for line in lines]
+    decimals = [decimals_for(pair, 4) for pair in values]
+    finer = decimals_for([n for pair in changes for n in pair], 3, most=max(decimals) + 1)
+    rows = []
+    for line, value, places, change, ratio in zip(lines, values, decimals, changes, ratios, strict=True):
+        texts = [
+            field.label,
+            line.value.variant,
+            field.display_unit,
+            *(fixed(n, places) for n in value),
+            percent(line.value.error),
+        ]
+        if with_change:
+            texts += [plus(fixed(n, finer)) for n in change]
+            texts += [fixed(n, decimals_for([n], 4, most=3)) for n in ratio]
+        rows.append(tuple(texts))
+    return rows
+
+
+def _changed(comparison: Comparison) -> tuple[str, ...]:
+    return tuple(name for name in comparison.variants if name != comparison.baseline)
+
+
+def _largest(comparison: Comparison, variant: str, quantity: str) -> str:
+    """Name where a quantity of 3D changes most at the shown cells and instants, with the 2D change there."""
+    rows = [
+        row
+        for i in comparison.i
+        for j in comparison.rows_of(variant)
+        for _, t in comparison.times
+        if (row := comparison.metrics.find(variant, quantity, "change", i, j, t))
+        and row.reference is not None
+    ]
+    if not rows:
+        return ""
+    row = max(rows, key=lambda r: abs(r.reference or 0.0))
+    field = FIELDS[quantity]
+    unit, factor = DIFFERENCE_UNITS[field.unit]
+    decimals = decimals_for(_both(row, factor), 3, most=3)
+    three, two = (with_unit(plus(fixed(n, decimals)), unit) for n in _both(row, factor))
+    return f"{field.label} {three} in 3D and {two} in 2D (at {place(row)})"
+
+
+def _signs(comparison: Comparison, variant: str) -> str:
+    """Say for how many cycle quantities that change in 3D the 2D model changes the same way."""
+    wrong, changed = [], 0
+    for field in _cycle_fields(comparison):
+        change = comparison.metrics.find(variant, field.name, "change")
+        value = comparison.metrics.find(variant, field.name, "cycle")
+        if change is None or value is None or None in (change.reference, change.rom, value.reference):
+            continue
+        three, two, whole = change.reference or 0.0, change.rom or 0.0, value.reference or 0.0
+        if abs(three) > _NOTICEABLE * abs(whole - three):
+            changed += 1
+            wrong += [field.label] if three * two <= 0 else []
+    if not changed:
+        return "No cycle quantity changes by more than 0.1 % in 3D."
+    if not wrong:
+        return (
+            f"All {changed} cycle quantities that change by more than 0.1 % in 3D change the same way in 2D."
+        )
+    return (
+        f"Of {changed} cycle quantities that change by more than 0.1 % in 3D, the 2D model changes "
+        f"{len(wrong)} the other way or not at all: {listed(wrong)}."
+    ).replace(" %", SPACE + "%")
+
+
+def _sentence(comparison: Comparison, variant: str) -> str:
+    largest = [text for name in _CELL_QUANTITIES if (text := _largest(comparison, variant, name))]
+    opening = f"Variant {variant} against {comparison.baseline}: "
+    if not largest:
+        return opening + _signs(comparison, variant)
+    return f"{opening}the largest changes at the shown cells are {'; '.join(largest)}. " + _signs(
+        comparison, variant
+    )
+
+
+def _values(comparison: Comparison) -> Subsection:
+    around = tuple(name for name in comparison.variants if comparison.wall_varies_around[name])
+    tables = cell_tables(
+        comparison,
+        "section-flow",
+        "Flow rate through the section at cell i; 3D beside 2D",
+        "section_flow_rate",
+        "value",
+        comparison.variants,
+    ) + cell_tables(
+        comparison,
+        "sector-flow",
+        f"Flow rate through one sector (one of {comparison.n_phi} around the artery) at cells (i, j), for "
+        "variants whose wall differs around the artery: rows j that differ mean that flow crosses between "
+        "rows",
+        "sector_flow_rate",
+        "value",
+        around,
+    )
+    return Subsection(
+        "flow", "Flow rate along the artery", tables or (Paragraph("No flow rates were scored."),)
+    )
+
+
+def _cell_changes(comparison: Comparison) -> tuple[Block, ...]:
+    changed = _changed(comparison)
+    tables = cell_tables(
+        comparison,
+        "change-section-flow",
+        f"Change of the flow rate through the section: variant minus {comparison.baseline}",
+        "section_flow_rate",
+        "change",
+        changed,
+    )
+    for quantity in _CELL_QUANTITIES:
+        tables += cell_tables(
+            comparison,
+            f"change-{quantity}",
+            f"Change of the {FIELDS[quantity].label}: variant minus {comparison.baseline}",
+            quantity,
+            "change",
+            changed,
+        )
+    return tables
+
+
+def section(comparison: Comparison) -> Section:
+    """Build the section."""
+    times = listed(instant(name, t) for name, t in comparison.times)
+    blocks: list[Block | Subsection] = []
+    if comparison.baseline:
+        blocks += [Paragraph(_sentence(comparison, name)) for name in _changed(comparison)]
+    else:
+        blocks.append(
+            Paragraph(
+                "No variant of this case is without calcification, so there is no baseline: what "
+                "calcification changes cannot be said; only the values themselves are shown."
+            )
+        )
+    if times:
+        blocks.append(
+            Paragraph(f"Times are counted from the start of the cycle and are those of 3D states: {times}.")
+        )
+    cycle = _cycle_table(comparison)
+    if cycle:
+        blocks.append(Subsection("whole-cycle", "Over the whole cycle", (cycle,)))
+    blocks.append(_values(comparison))
+    changes = _cell_changes(comparison) if comparison.baseline else ()
+    if changes:
+        blocks.append(Subsection("cell-changes", "Change at the shown cells", changes))
+    return Section("change", "What calcification changes", tuple(blocks))

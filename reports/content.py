@@ -1,0 +1,37 @@
+"""What the report says, once, for every rendering."""
+
+from reports import change, cycle, provenance, velocity, verdict
+from reports.blocks import Report
+from reports.load import Comparison
+from reports.numbers import counted, listed
+
+
+def identity(comparison: Comparison) -> str:
+    """Case, commit and date of a run in one line."""
+    commit = comparison.provenance["git_commit"]
+    return " · ".join(
+        (
+            comparison.case,
+            f"commit {str(commit)[:9]}" if commit else "no commit",
+            str(comparison.provenance["created"])[:10],
+        )
+    )
+
+
+def report(comparison: Comparison) -> Report:
+    """Compose the report of a comparison; every figure is drawn here."""
+    return Report(
+        title=comparison.title,
+        subtitle="A two-dimensional reduced-order model of the artery (2D) against three-dimensional "
+        f"fluid–structure simulation (3D), cell by cell: {counted(len(comparison.variants), 'variant')}, "
+        f"{listed(comparison.variants)}.",
+        identity=identity(comparison),
+        created=str(comparison.provenance["created"]),
+        sections=(
+            verdict.section(comparison),
+            change.section(comparison),
+            cycle.section(comparison),
+            velocity.section(comparison),
+            provenance.section(comparison),
+        ),
+    )

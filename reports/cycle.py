@@ -1,0 +1,167 @@
+"""Section 3: pressure, radius and flow over the cycle at the chosen cells."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cases.fields import FIELDS, Field
+from reports.blocks import Block, Figure, Paragraph, Section, Subsection
+from reports.cells import chunks
+from reports.figures import Curves, PanelRow, small_multiples
+from reports.load import Comparison
+from reports.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
+from reports.tabular import comma_separated
+from reports.words import column_heading, row_heading
+
+Array = NDArray[np.float64]
+
+_SYMBOLS = {"pressure": "P", "radius": "R", "sector_flow_rate": "$q_φ$", "section_flow_rate": "q"}
+
+
+@dataclass(frozen=True)
+class _Line:
+    """Both models' curves of one quantity along one row j (None: of the whole section), SI, (time, i)."""
+
+    field: Field
+    j: int | None
+    reference: Array
+    rom: Array
+
+
+def _line(comparison: Comparison, variant: str, quantity: str, j: int | None) -> _Line:
+    data = comparison.curves.sel(variant=variant)
+    if j is not None:
+        data = data.isel(phi=j - 1)
+    reference, rom = (data[f"{m}_{quantity}"].values.astype(float) for m in ("reference", "rom"))
+    return _Line(FIELDS[quantity], j, reference, rom)
+
+
+def _panel_row(comparison: Comparison, line: _Line, columns: Sequence[int]) -> PanelRow:
+    field = line.field
+    unit, factor = DIFFERENCE_UNITS[field.unit]
+    at = [comparison.i.index(i) for i in columns]
+    return PanelRow(
+        quantity=f"{_SYMBOLS[field.name]} ({field.display_unit})",
+        label="section" if line.j is None else row_heading(comparison, line.j),
+        panels=tuple(
+            Curves(field.display_factor * line.reference[:, k], field.display_factor * line.rom[:, k])
+            for k in at
+        ),
+        difference=f"2D − 3D ({unit})",
+        difference_factor=factor / field.display_factor,
+    )
+
+
+def _farthest(comparison: Comparison, line: _Line) -> str:
+    """Say where the models differ most."""
+    difference = line.rom - line.reference
+    if not np.isfinite(difference).any():
+        return f"{line.field.label} has no figure in one of the models"
+    state, column = np.unravel_index(int(np.nanargmax(np.abs(difference))), difference.shape)
+    unit, factor = DIFFERENCE_UNITS[line.field.unit]
+    t = float(comparison.curves["time"].values[state])
+    row = "" if line.j is None else f", j = {line.j}"
+    value = with_unit(signed(float(difference[state, column]) * factor), unit)
+    return f"{line.field.label} {value} (i = {comparison.i[column]}{row}, t = {t:.3f} s)"
+
+
+def _worst_line(lines: Sequence[_Line]) -> _Line:
+    return max(lines, key=lambda line: float(np.nan_to_num(np.abs(line.rom - line.reference)).max()))
+
+
+def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Line]) -> tuple[Figure, ...]:
+    time = comparison.curves["time"].values.astype(float)
+    names = list(dict.fromkeys(line.field.label for line in lines))
+    by_name = [_worst_line([line for line in lines if line.field.label == name]) for name in names]
+    farthest = "; ".join(_farthest(comparison, line) for line in by_name)
+    what = listed(names)
+    figures = []
+    for columns in chunks(comparison.i):
+        cells = f"cells i = {listed(columns)}"
+        svg = small_multiples(
+            time,
+            "time into the cycle (s)",
+            [column_heading(comparison, i) for i in columns],
+            [_panel_row(comparison, line, columns) for line in lines],
+            marks=[t for _, t in comparison.times],
+        )
+        figures.append(
+            Figure(
+                key=f"{key}-{columns[0]}",
+                caption=f"Variant {variant}: {what} over the cycle at {cells}; 3D as points, 2D as a line, "
+                f"2D − 3D below. Farthest apart: {farthest}. The closer the lower panels stay to zero, "
+                "the better the 2D model follows; a flat line off zero is a constant offset. Dotted: "
+                "the named times.",
+                alt=f"Curves of {what} over time in 3D and 2D with their difference, variant {variant}, a "
+                f"column of panels for each of {cells}. Farthest apart: {farthest}.",
+                svg=svg,
+                csv=_csv(comparison, lines, columns),
+            )
+        )
+    return tuple(figures)
+
+
+def _csv(comparison: Comparison, lines: Sequence[_Line], columns: Sequence[int]) -> str:
+    time = comparison.curves["time"].values
+    rows = [
+        (line.field.name, i, line.j, t, line.reference[state, k], line.rom[state, k], line.field.unit)
+        for line in lines
+        for i in columns
+        for k in (comparison.i.index(i),)
+        for state, t in enumerate(time)
+    ]
+    return comma_separated(("quantity", "i", "j", "t_s", "reference", "rom", "unit"), rows)
+
+
+def _spread(comparison: Comparison, variant: str) -> str:
+    """Say how little the fields vary around an artery whose wall is the same all around."""
+    j = comparison.rows_of(variant)[0]
+    three, two = (
+        _largest_spread(comparison.curves[f"{model}_radius"].sel(variant=variant).values)
+        for model in ("reference", "rom")
+    )
+    return (
+        f"The wall of variant {variant} is the same all around, so one row stands for all: j = {j}. At the "
+        f"shown columns the radius varies around the artery by {three} in 3D and {two} in 2D."
+    )
+
+
+def _largest_spread(radius: Array) -> str:
+    """Largest range over φ, the last axis, in words."""
+    spread = np.ptp(radius, axis=-1)
+    spread = spread[np.isfinite(spread)]
+    return (
+        f"at most {with_unit(rounded(1e6 * float(spread.max()), 3), 'μm')}"
+        if spread.size
+        else "an unknown amount"
+    )
+
+
+def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:
+    key = f"cycle-{number}"
+    rows = comparison.rows_of(variant)
+    section_flow = _line(comparison, variant, "section_flow_rate", None)
+    if not comparison.wall_varies_around[variant]:
+        lines = [_line(comparison, variant, name, rows[0]) for name in ("pressure", "radius")]
+        blocks: tuple[Block, ...] = (
+            Paragraph(_spread(comparison, variant)),
+            *_figures(comparison, variant, f"{key}-all", [*lines, section_flow]),
+        )
+        return Subsection(key, f"Variant {variant}", blocks)
+    blocks = ()
+    for name in ("pressure", "radius", "sector_flow_rate"):
+        lines = [_line(comparison, variant, name, j) for j in rows]
+        blocks += _figures(comparison, variant, f"{key}-{name}", lines)
+    blocks += _figures(comparison, variant, f"{key}-section", [section_flow])
+    return Subsection(key, f"Variant {variant}", blocks)
+
+
+def section(comparison: Comparison) -> Section:
+    """Build the section."""
+    return Section(
+        "cycle",
+        "Pressure, radius and flow over the cycle",
+        tuple(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+    )

@@ -1,0 +1,109 @@
+"""Last section: what the comparison was made from, and how to make it again."""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, Table
+from reports.load import Comparison
+from reports.numbers import ABSENT, counted
+
+_KEYS = {"n_x": "cells along the artery", "n_phi": "cells around the artery"}
+
+
+def _word(value: object) -> str:
+    if value is None or value == "":
+        return ABSENT
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, dict | list):
+        return json.dumps(value, ensure_ascii=False)
+    return str(value)
+
+
+def _key(name: str) -> str:
+    """Name of a setting in words, with the unit that its last letters tell."""
+    if name in _KEYS:
+        return _KEYS[name]
+    return (f"{name[:-2]} (s)" if name.endswith("_s") else name).replace("_", " ")
+
+
+def _pairs(key: str, caption: str, headings: tuple[str, str], pairs: Mapping[str, object]) -> Table:
+    rows = tuple((_key(name), _word(value)) for name, value in pairs.items())
+    return Table(key, caption, (Column(headings[0]), Column(headings[1], "prose")), rows)
+
+
+def _run(comparison: Comparison) -> Table:
+    p = comparison.provenance
+    return _pairs(
+        "run",
+        "The run that this report draws.",
+        ("what", "value"),
+        {
+            "case": comparison.case,
+            "case file": p["case"].get("path"),
+            "created": p["created"],
+            "package version": p["package_version"],
+            "git commit": p["git_commit"],
+            "Python": p["python"],
+            **{f"machine: {name}": value for name, value in p["machine"].items()},
+        },
+    )
+
+
+def _models(comparison: Comparison, side: str, caption: str) -> Table:
+    """Write facts of one model, a row each, with a column for each variant."""
+    facts: dict[str, Any] = {
+        name: comparison.provenance["variants"].get(name, {}).get(side, {}) for name in comparison.variants
+    }
+    keys = dict.fromkeys(key for of_variant in facts.values() for key in of_variant)
+    return Table(
+        side,
+        caption,
+        (Column("setting"), *(Column(name, "prose") for name in comparison.variants)),
+        tuple((_key(key), *(_word(facts[name].get(key)) for name in comparison.variants)) for key in keys),
+    )
+
+
+def _inputs(comparison: Comparison) -> Table:
+    p = comparison.provenance
+    files = [
+        {"path": p["case"].get("path"), "bytes": None, "sha256": p["case"].get("sha256")},
+        *p["inputs"],
+    ]
+    unique = {(str(f.get("path")), str(f.get("sha256"))): f for f in files}
+    rows = tuple((path, _word(f.get("bytes")), sha) for (path, sha), f in unique.items())
+    return Table(
+        "inputs",
+        "Files read, with the checksums that identify them.",
+        (Column("file", "prose"), Column("bytes", "number"), Column("sha256", "code")),
+        rows,
+    )
+
+
+def section(comparison: Comparison) -> Section:
+    """Build the section."""
+    p = comparison.provenance
+    blocks: list[Block] = [
+        Paragraph(
+            "How to repeat it: check out the commit named below, install the package, put the files listed "
+            "under inputs in place and run the command."
+        ),
+        Listing("Command", str(p["command"])),
+        _run(comparison),
+        _models(comparison, "rom", "2D model: grid, time step and settings."),
+        _models(comparison, "reference", "3D reference: files, mesh and states."),
+    ]
+    if p["wall_times_s"]:
+        blocks.append(
+            _pairs("wall-times", "Wall-clock times of this run.", ("step", "seconds"), p["wall_times_s"])
+        )
+    blocks.append(_inputs(comparison))
+    blocks.append(_pairs("versions", "Versions of the libraries.", ("package", "version"), p["versions"]))
+    if p["notes"]:
+        blocks.append(Paragraph(f"{counted(len(p['notes']), 'note')} of the run, warnings and assumptions:"))
+        blocks.append(Bullets(tuple(str(note) for note in p["notes"])))
+    blocks.append(Listing("The case file", comparison.case_yaml))
+    return Section("provenance", "Provenance", tuple(blocks))

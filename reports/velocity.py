@@ -1,0 +1,144 @@
+"""Section 4: velocity profiles at the named instants."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cases.fields import FIELDS
+from reports.blocks import Figure, Paragraph, Section, Subsection
+from reports.cells import chunks
+from reports.figures import Curves, PanelRow, small_multiples
+from reports.load import Comparison
+from reports.metrics import Metrics
+from reports.numbers import fixed, listed, signed, with_unit
+from reports.tabular import comma_separated
+from reports.words import column_heading, instant, row_heading
+
+_FIELD = FIELDS["axial_velocity"]
+
+
+@dataclass(frozen=True)
+class _Line:
+    """Both models' profiles at one instant along one row j: SI, (i, y)."""
+
+    label: str
+    t_s: float
+    j: int
+    reference: NDArray[np.float64]
+    rom: NDArray[np.float64]
+
+
+def _line(comparison: Comparison, variant: str, state: int, j: int, label: str) -> _Line:
+    data = comparison.profiles.sel(variant=variant).isel(time=state, phi=comparison.j.index(j))
+    reference, rom = (data[f"{m}_axial_velocity"].values.astype(float) for m in ("reference", "rom"))
+    return _Line(label, comparison.times[state][1], j, reference, rom)
+
+
+def _exponents(metrics: Metrics, variant: str, i: int, line: _Line) -> str:
+    row = metrics.find(variant, "profile_exponent", "value", i, line.j, line.t_s)
+    return f"γ 3D {fixed(row.reference, 2)}\nγ 2D {fixed(row.rom, 2)}" if row else ""
+
+
+def _panel_row(comparison: Comparison, variant: str, line: _Line, columns: Sequence[int]) -> PanelRow:
+    factor = _FIELD.display_factor
+    return PanelRow(
+        quantity=f"$v_x$ ({_FIELD.display_unit})",
+        label=line.label,
+        panels=tuple(
+            Curves(
+                factor * line.reference[k],
+                factor * line.rom[k],
+                _exponents(comparison.metrics, variant, i, line),
+            )
+            for i in columns
+            for k in (comparison.i.index(i),)
+        ),
+    )
+
+
+def _farthest(comparison: Comparison, lines: Sequence[_Line]) -> str:
+    differences = np.stack([line.rom - line.reference for line in lines])
+    if not np.isfinite(differences).any():
+        return "one of the models has no profile here"
+    row, column, ray = np.unravel_index(int(np.nanargmax(np.abs(differences))), differences.shape)
+    y = float(comparison.profiles["y"].values[ray])
+    value = with_unit(
+        signed(float(differences[row, column, ray]) * _FIELD.display_factor), _FIELD.display_unit
+    )
+    line = lines[int(row)]
+    return (
+        f"the models are farthest apart, 2D − 3D = {value}, at r/R = {y:.2f} "
+        f"(i = {comparison.i[column]}, j = {line.j}, t = {line.t_s:.3f} s)"
+    )
+
+
+def _figures(
+    comparison: Comparison, variant: str, key: str, when: str, lines: Sequence[_Line]
+) -> tuple[Figure, ...]:
+    farthest = _farthest(comparison, lines)
+    figures = []
+    for columns in chunks(comparison.i):
+        rows = dict.fromkeys(line.j for line in lines)
+        cells = f"cells i = {listed(columns)}, j = {listed(rows)}"
+        figures.append(
+            Figure(
+                key=f"{key}-{columns[0]}",
+                caption=f"Variant {variant}, {when}: axial velocity along the ray from the axis (r/R = 0) "
+                f"to the wall (r/R = 1) at {cells}; 3D as points, 2D as a line. In these panels {farthest}. "
+                "γ is the exponent of the 2D model's profile and of the profile closest to 3D: 2 is a "
+                "parabola, more is flatter.",
+                alt=f"Velocity profiles of 3D and 2D, variant {variant}, {when}, a panel for each of "
+                f"{cells}; {farthest}.",
+                svg=small_multiples(
+                    comparison.profiles["y"].values.astype(float),
+                    "r/R (–)",
+                    [column_heading(comparison, i) for i in columns],
+                    [_panel_row(comparison, variant, line, columns) for line in lines],
+                    from_zero=True,
+                ),
+                csv=_csv(comparison, lines, columns),
+            )
+        )
+    return tuple(figures)
+
+
+def _csv(comparison: Comparison, lines: Sequence[_Line], columns: Sequence[int]) -> str:
+    rows = [
+        (line.t_s, i, line.j, float(y), line.reference[k, ray], line.rom[k, ray])
+        for line in lines
+        for i in columns
+        for k in (comparison.i.index(i),)
+        for ray, y in enumerate(comparison.profiles["y"].values)
+    ]
+    return comma_separated(("t_s", "i", "j", "r_over_R", "reference_v_x_m_s", "rom_v_x_m_s"), rows)
+
+
+def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:
+    key = f"profiles-{number}"
+    rows = comparison.rows_of(variant)
+    states = range(len(comparison.times))
+    if len(rows) == 1:
+        lines = [
+            _line(comparison, variant, k, rows[0], f"t = {comparison.times[k][1]:.3f} s") for k in states
+        ]
+        when = "from top to bottom " + listed(instant(name, t) for name, t in comparison.times)
+        return Subsection(key, f"Variant {variant}", _figures(comparison, variant, f"{key}-all", when, lines))
+    figures: tuple[Figure, ...] = ()
+    for k in states:
+        lines = [_line(comparison, variant, k, j, row_heading(comparison, j)) for j in rows]
+        figures += _figures(comparison, variant, f"{key}-{k + 1}", instant(*comparison.times[k]), lines)
+    return Subsection(key, f"Variant {variant}", figures)
+
+
+def section(comparison: Comparison) -> Section:
+    """Build the section."""
+    title = "Velocity profiles"
+    if not comparison.times:
+        return Section("profiles", title, (Paragraph("The case names no instant to show profiles at."),))
+    return Section(
+        "profiles",
+        title,
+        tuple(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+    )
