@@ -1,1 +1,6 @@
 """One report, in HTML and PDF, from a finished comparison."""
+
+from reports.build import write_reports
+from reports.errors import ReportError
+
+__all__ = ["ReportError", "write_reports"]
