@@ -1,0 +1,37 @@
+import io
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pypdf
+import pytest
+import synthetic_comparison as synthetic
+
+from reports import write_reports
+
+
+@pytest.fixture(scope="session")
+def pdf_text() -> Callable[[Path], str]:
+    """Text of a PDF with single spaces between words."""
+
+    def read(path: Path) -> str:
+        pages = pypdf.PdfReader(io.BytesIO(path.read_bytes())).pages
+        return re.sub(r"\s+", " ", " ".join(page.extract_text() for page in pages))
+
+    return read
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dict[str, Any]]]:
+    """Directory of a comparison of three variants with its reports written, and its metrics."""
+    directory = tmp_path_factory.mktemp("comparison")
+    rows = synthetic.write(directory, synthetic.Setup(i=(1, 6, 12), j=(1, 4)))
+    write_reports(directory)
+    return directory, rows
+
+
+@pytest.fixture
+def small() -> synthetic.Setup:
+    """The smallest comparison: one variant, one cell, one instant, no baseline."""
+    return synthetic.Setup(variants=("local",), baseline="", i=(6,), j=(4,), time_names=("systole",))

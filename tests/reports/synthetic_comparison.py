@@ -1,0 +1,390 @@
+"""A comparison directory made of formulas.
+
+Plausible fields of an artery without, with a ring of and with a patch of calcification, and the metrics,
+bands and provenance that belong to them.
+"""
+
+import hashlib
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+PERIOD = 0.797333
+LENGTH = 15e-3
+VARIANTS = ("none", "axisymmetric", "local")
+UNITS = {
+    "pressure": "Pa",
+    "radius": "m",
+    "mean_velocity": "m s-1",
+    "profile_exponent": "1",
+    "sector_flow_rate": "m3 s-1",
+}
+CASE_YAML = "name: synthetic\ngeometry: {length: 15 mm, radius: 2.5 mm}\nwall: {youngs_modulus: 0.6 MPa}\n"
+
+
+@dataclass
+class Setup:
+    """Size and words of a synthetic comparison."""
+
+    n_x: int = 12
+    n_phi: int = 8
+    n_time: int = 11
+    n_y: int = 9
+    i: tuple[int, ...] = (1, 4, 6, 9, 12)
+    j: tuple[int, ...] = (1, 3, 4)
+    variants: tuple[str, ...] = VARIANTS
+    baseline: str = "none"
+    title: str = "Synthetic artery, three patterns of calcification"
+    time_names: tuple[str, ...] = ("systole", "second trough", "end diastole")
+    notes: tuple[str, ...] = (
+        "The viscosity of both models is 0.0035 Pa s.",
+        "The stiffness β jumps at φ = 135°.",
+    )
+    bands: list[dict[str, Any]] = field(
+        default_factory=lambda: [
+            {
+                "quantity": "section_flow_rate",
+                "statistic": "rms_error",
+                "limit": 0.02,
+                "reason": "the inlet polygon has 1.1 % less area",
+                "variants": None,
+            },
+            {
+                "quantity": "radius",
+                "statistic": "rms_error",
+                "limit": 0.01,
+                "reason": "1D against 3D reaches 0.9 %",
+                "variants": None,
+            },
+            {
+                "quantity": "largest_pressure_difference",
+                "statistic": "cycle",
+                "limit": 0.05,
+                "reason": "a local wall is no ring",
+                "variants": ["local"],
+            },
+            {
+                "quantity": "mean_velocity",
+                "statistic": "max_error",
+                "limit": 0.3,
+                "reason": "profiles are no power laws",
+                "variants": None,
+            },
+            {
+                "quantity": "phase_lag",
+                "statistic": "cycle",
+                "limit": 0.02,
+                "reason": "the wave takes 3 ms",
+                "variants": ["local"],
+            },
+        ]
+    )
+
+
+def fields(setup: Setup) -> dict[str, np.ndarray]:
+    """SI arrays by name, models as the first part of the name."""
+    time = np.linspace(0, PERIOD, setup.n_time)
+    x = (np.arange(setup.n_x) + 0.5) * LENGTH / setup.n_x
+    phi = (np.arange(setup.n_phi) + 0.5) * 2 * np.pi / setup.n_phi
+    y = np.linspace(0, 1, setup.n_y)
+    t_, x_, p_ = np.meshgrid(time, x, phi, indexing="ij")
+    wave = 0.25 + np.exp(-(((t_ - 0.1) / 0.07) ** 2)) + 0.25 * np.exp(-(((t_ - 0.35) / 0.08) ** 2))
+    ring = 0.5 * (np.tanh((x_ - 5e-3) / 8e-4) - np.tanh((x_ - 10e-3) / 8e-4))
+    patch = {"none": 0 * ring, "axisymmetric": ring, "local": ring * np.exp(-(((p_ - np.pi) / 0.7) ** 4))}
+    out: dict[str, list[np.ndarray]] = {}
+    for name in setup.variants:
+        for model in ("reference", "rom"):
+            two = model == "rom"
+            soft = patch.get(name, patch["local"])
+            stiff = soft if two else 0.75 * soft + 0.25 * soft.mean(axis=2, keepdims=True)
+            pressure = (
+                12e3
+                - 1.0e3 * two
+                + (3.2e3 + 600 * two) * wave
+                - 40.0 * x_ / LENGTH * (1 + 0.4 * soft)
+                + (90.0 if two else 12.0) * soft
+            )
+            radius = 2.5e-3 + 2.0e-8 * pressure * (1 - 0.9 * stiff)
+            flow = (
+                (1.5e-6 + 2.9e-6 * wave)
+                * (0.955 if two else 1.0)
+                * (1 + 0.01 * x_ / LENGTH * np.sin(9 * t_))
+                * (1 - 0.01 * soft.mean(axis=2, keepdims=True))
+            )
+            sector = (
+                flow
+                / setup.n_phi
+                * (1 - (0.0 if two else 0.08) * (stiff - stiff.mean(axis=2, keepdims=True)))
+            )
+            section = sector.sum(axis=2)
+            speed = sector * setup.n_phi / (np.pi * radius**2)
+            gamma = (2.0 + (0.1 if two else 0.6) * np.sin(6 * t_) + stiff) + (
+                0.0 if two else 0.8 * x_ / LENGTH
+            )
+            profile = speed[..., None] * (1 + 2 / gamma[..., None]) * (1 - y ** gamma[..., None])
+            for key, values in (
+                ("pressure", pressure),
+                ("radius", radius),
+                ("mean_velocity", speed),
+                ("profile_exponent", gamma),
+                ("sector_flow_rate", sector),
+                ("section_flow_rate", section),
+                ("section_pressure", pressure.mean(axis=2)),
+                ("axial_velocity", profile.astype(np.float32)),
+            ):
+                out.setdefault(f"{model}_{key}", []).append(values)
+        out.setdefault("wall_stiffness", []).append(130.0 * (1 + 15 * patch.get(name, patch["local"])[0]))
+    return {key: np.stack(value) for key, value in out.items()} | {"time": time, "x": x, "phi": phi, "y": y}
+
+
+def dataset(setup: Setup, arrays: dict[str, np.ndarray]) -> xr.Dataset:
+    """The arrays as comparison.nc holds them."""
+    by_rank = {
+        3: ("variant", "time", "x"),
+        4: ("variant", "time", "x", "phi"),
+        5: ("variant", "time", "x", "phi", "y"),
+    }
+    variables = {
+        key: (("variant", "x", "phi") if key == "wall_stiffness" else by_rank[values.ndim], values)
+        for key, values in arrays.items()
+        if key not in ("time", "x", "phi", "y")
+    }
+    times = [float(arrays["time"][k]) for k in states(setup, arrays)]
+    return xr.Dataset(
+        variables,
+        coords={"variant": list(setup.variants), **{k: arrays[k] for k in ("time", "x", "phi", "y")}},
+        attrs={
+            "case": "synthetic",
+            "title": setup.title,
+            "baseline": setup.baseline,
+            "period_s": PERIOD,
+            "compare_i": np.array(setup.i),
+            "compare_j": np.array(setup.j),
+            "compare_time_names": json.dumps(setup.time_names),
+            "compare_times_s": np.array(times),
+            "case_yaml": CASE_YAML,
+            "Conventions": "CF-1.11",
+        },
+    )
+
+
+def states(setup: Setup, arrays: dict[str, np.ndarray]) -> list[int]:
+    """The states nearest to the instants of the thesis, as many as are named."""
+    return [int(np.abs(arrays["time"] - t).argmin()) for t in (0.1, 0.28, PERIOD)][: len(setup.time_names)]
+
+
+def _row(variant: str, quantity: str, statistic: str, unit: str, **rest: Any) -> dict[str, Any]:
+    blank = dict.fromkeys(("i", "j", "t_s", "rom", "reference", "error", "band"))
+    return {
+        "case": "synthetic",
+        "variant": variant,
+        "quantity": quantity,
+        "statistic": statistic,
+        **blank,
+        "unit": unit,
+        "status": "",
+        **rest,
+    }
+
+
+def _cell_rows(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
+    rows = []
+    base = setup.variants.index(setup.baseline) if setup.baseline else None
+    for v, variant in enumerate(setup.variants):
+        for quantity, unit in (*UNITS.items(), ("section_flow_rate", "m3 s-1")):
+            two, three = arrays[f"rom_{quantity}"], arrays[f"reference_{quantity}"]
+            for state in states(setup, arrays):
+                for i in setup.i:
+                    for j in (None,) if quantity == "section_flow_rate" else setup.j:
+                        at = (state, i - 1) if j is None else (state, i - 1, j - 1)
+                        b, a = float(two[v][at]), float(three[v][at])
+                        where = {"i": i, "j": j, "t_s": float(arrays["time"][state])}
+                        rows.append(
+                            _row(
+                                variant,
+                                quantity,
+                                "value",
+                                unit,
+                                **where,
+                                rom=b,
+                                reference=a,
+                                error=b / a - 1,
+                            )
+                        )
+                        if base is not None and v != base:
+                            b0, a0 = float(two[base][at]), float(three[base][at])
+                            rows.append(
+                                _row(
+                                    variant,
+                                    quantity,
+                                    "change",
+                                    unit,
+                                    **where,
+                                    rom=b - b0,
+                                    reference=a - a0,
+                                )
+                            )
+                            rows.append(
+                                _row(
+                                    variant,
+                                    quantity,
+                                    "ratio",
+                                    "1",
+                                    **where,
+                                    rom=b / b0,
+                                    reference=a / a0,
+                                )
+                            )
+    return rows
+
+
+def _pooled_rows(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
+    rows = []
+    for v, variant in enumerate(setup.variants):
+        for quantity, unit in (*UNITS.items(), ("section_flow_rate", "m3 s-1")):
+            two, three = arrays[f"rom_{quantity}"][v], arrays[f"reference_{quantity}"][v]
+            error = two / three - 1
+            at = np.unravel_index(int(np.abs(error).argmax()), error.shape)
+            found = {
+                "t_s": float(arrays["time"][at[0]]),
+                "i": int(at[1]) + 1,
+                "j": int(at[2]) + 1 if len(at) == 3 else None,
+            }
+            for statistic, value in (
+                ("bias", error.mean()),
+                ("scatter", error.std()),
+                ("rms_error", np.sqrt((error**2).mean())),
+            ):
+                rows.append(_row(variant, quantity, statistic, unit, error=float(value)))
+            rows.append(_row(variant, quantity, "max_error", unit, error=float(error[at]), **found))
+    return rows
+
+
+def _cycle_rows(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
+    def numbers(model: str, v: int) -> dict[str, tuple[float, str]]:
+        p, r = arrays[f"{model}_section_pressure"][v], arrays[f"{model}_radius"][v]
+        return {
+            "systolic_pressure": (p.max(), "Pa"),
+            "diastolic_pressure": (p.min(), "Pa"),
+            "pulse_pressure": (np.ptp(p), "Pa"),
+            "largest_radius": (r.max(), "m"),
+            "least_radius": (r.min(), "m"),
+            "largest_pressure_difference": (np.ptp(p, axis=1).max(), "Pa"),
+            "largest_radius_variation": (np.ptp(r, axis=(1, 2)).max(), "m"),
+        }
+
+    rows = []
+    for v, variant in enumerate(setup.variants):
+        two, three = numbers("rom", v), numbers("reference", v)
+        for quantity, (b, unit) in two.items():
+            a = three[quantity][0]
+            rows.append(
+                _row(
+                    variant,
+                    quantity,
+                    "cycle",
+                    unit,
+                    rom=float(b),
+                    reference=float(a),
+                    error=float(b / a - 1),
+                )
+            )
+            if setup.baseline and variant != setup.baseline:
+                base = setup.variants.index(setup.baseline)
+                b0, a0 = numbers("rom", base)[quantity][0], numbers("reference", base)[quantity][0]
+                rows.append(
+                    _row(variant, quantity, "change", unit, rom=float(b - b0), reference=float(a - a0))
+                )
+                rows.append(_row(variant, quantity, "ratio", "1", rom=float(b / b0), reference=float(a / a0)))
+    return rows
+
+
+def metrics(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
+    """Rows as metrics.json holds them, those of the bands last."""
+    rows = _cell_rows(setup, arrays) + _pooled_rows(setup, arrays) + _cycle_rows(setup, arrays)
+    judged = []
+    for band in setup.bands:
+        for variant in band["variants"] or setup.variants:
+            found = [
+                row
+                for row in rows
+                if (row["variant"], row["quantity"], row["statistic"])
+                == (variant, band["quantity"], band["statistic"])
+                and (row["i"] is None or row["statistic"] == "max_error")
+            ]
+            row = found[0] if found else _row(variant, band["quantity"], band["statistic"], "s")
+            status = "MISSING" if not found else "OK" if abs(row["error"]) <= band["limit"] else "FAIL"
+            judged.append({**row, "band": band["limit"], "status": status})
+    return rows + judged
+
+
+def provenance(setup: Setup) -> dict[str, Any]:
+    """What provenance.json holds."""
+
+    def sha(text: str) -> str:
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    return {
+        "created": "2026-03-04T05:06:07+00:00",
+        "command": "python -m validation.compare cases/calcification.yaml --output results/calcification",
+        "git_commit": "0123456789abcdef0123456789abcdef01234567",
+        "package_version": "0.1.0",
+        "python": "3.11.9",
+        "versions": {
+            "numpy": "2.4.6",
+            "scipy": "1.16.0",
+            "numba": "0.62.1",
+            "xarray": "2026.9.0",
+            "typst": "0.15.2",
+        },
+        "machine": {"system": "Linux 6.1", "processor": "x86_64", "cores": 2},
+        "case": {"path": "cases/calcification.yaml", "sha256": sha(CASE_YAML)},
+        "inputs": [
+            *(
+                {"path": f"reference_data/febio/{name}.xplt", "sha256": sha(name), "bytes": 3500000 + k}
+                for k, name in enumerate(setup.variants)
+            ),
+            {"path": "reference_data/waveforms/thesis_inlet.csv", "sha256": sha("waveform"), "bytes": 274},
+        ],
+        "wall_times_s": {"2D model, none": 0.81, "3D reading, none": 4.2, "mapping onto cells": 11.5},
+        "notes": list(setup.notes),
+        "variants": {
+            name: {
+                "rom": {
+                    "scheme": "semi_implicit",
+                    "n_x": setup.n_x,
+                    "n_phi": setup.n_phi,
+                    "time_step_s": 0.001,
+                    "steps": 2391,
+                    "cycles": 3,
+                    "wall_law": "thick",
+                },
+                "reference": {
+                    "file": f"reference_data/febio/{name}.xplt",
+                    "software": "FEBio",
+                    "version": "4.11",
+                    "nodes": 8215,
+                    "elements": 7920,
+                    "states": setup.n_time,
+                },
+            }
+            for name in setup.variants
+        },
+        "bands": setup.bands,
+    }
+
+
+def write(directory: Path, setup: Setup | None = None) -> list[dict[str, Any]]:
+    """Write a finished comparison and return its metrics."""
+    setup = setup or Setup()
+    arrays = fields(setup)
+    rows = metrics(setup, arrays)
+    directory.mkdir(parents=True, exist_ok=True)
+    dataset(setup, arrays).to_netcdf(directory / "comparison.nc", engine="netcdf4")
+    (directory / "metrics.json").write_text(json.dumps(rows), encoding="utf-8")
+    (directory / "provenance.json").write_text(json.dumps(provenance(setup)), encoding="utf-8")
+    return rows

@@ -1,0 +1,229 @@
+import csv
+import dataclasses
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import synthetic_comparison as synthetic
+import xarray as xr
+
+from reports import change, cycle, velocity, verdict
+from reports.blocks import Bullets, Figure, Paragraph, Section, Subsection, Table
+from reports.load import load
+
+Rows = list[dict[str, Any]]
+
+
+def _blocks(section: Section, kind: type) -> list[Any]:
+    parts = [
+        b for block in section.blocks for b in (block.blocks if isinstance(block, Subsection) else [block])
+    ]
+    return [block for block in parts if isinstance(block, kind)]
+
+
+@pytest.fixture(scope="module")
+def curves(finished: tuple[Path, Rows]) -> Section:
+    """The section of the curves over the cycle."""
+    return cycle.section(load(finished[0]))
+
+
+def _table(section: Section, key: str) -> Table:
+    return next(table for table in _blocks(section, Table) if table.key == key)
+
+
+def _number(text: str) -> float:
+    return float(text.replace("−", "-").replace("\u00a0", "").rstrip("%"))
+
+
+def _find(rows: Rows, **what: Any) -> dict[str, Any]:
+    return next(row for row in rows if not row["status"] and all(row[key] == v for key, v in what.items()))
+
+
+def test_the_band_table_has_every_band_worst_first(finished: tuple[Path, Rows]) -> None:
+    directory, rows = finished
+    bands = [row for row in rows if row["status"]]
+    table = _table(verdict.section(load(directory)), "bands")
+    titles = [column.title for column in table.columns]
+    assert len(table.rows) == len(bands)
+    status = [row[titles.index("verdict")] for row in table.rows]
+    assert status == sorted(status, key=["FAIL", "MISSING", "OK"].index)
+    assert {"FAIL", "MISSING", "OK"} == set(status)
+    for kind in ("FAIL", "OK"):
+        shares = [_number(row[titles.index("of limit")]) for row in table.rows if row[1] == kind]
+        assert shares == sorted(shares, reverse=True)
+    worst = max((b for b in bands if b["error"] is not None), key=lambda b: abs(b["error"]) / b["band"])
+    assert _number(table.rows[0][titles.index("error")]) == pytest.approx(100 * worst["error"], abs=0.005)
+    assert table.rows[0][titles.index("reason for the limit")] == "the inlet polygon has 1.1 % less area"
+
+
+def test_the_verdict_counts_what_the_metrics_hold(finished: tuple[Path, Rows]) -> None:
+    directory, rows = finished
+    bands = [row for row in rows if row["status"]]
+    held = sum(row["status"] == "OK" for row in bands)
+    said = verdict.headline(load(directory))
+    assert said.startswith(f"{held} of {len(bands)} bands hold (none: ")
+    local = [row["status"] for row in bands if row["variant"] == "local"]
+    assert f"local: {local.count('OK')} of {len(local)} hold, {local.count('FAIL')} fail, 1 missing)." in said
+
+
+def test_what_is_missing_is_said_not_to_be_known(finished: tuple[Path, Rows]) -> None:
+    unknown = verdict.unknowns(load(finished[0]))
+    assert any("lag of the reduced model's outlet flow" in said for said in unknown)
+    assert any("finer mesh" in said for said in unknown)
+
+
+def test_a_single_cycle_is_said(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    path = tmp_path / "provenance.json"
+    path.write_text(path.read_text().replace('"cycles": 3', '"cycles": 1'))
+    assert any("single cycle for local" in said for said in verdict.unknowns(load(tmp_path)))
+
+
+def test_without_bands_nothing_is_judged(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, dataclasses.replace(small, bands=[]))
+    section = verdict.section(load(tmp_path))
+    assert "declares no band" in section.blocks[0].text  # type: ignore[union-attr]
+    assert [table.key for table in _blocks(section, Table)] == ["pooled"]
+
+
+def test_an_error_close_to_its_limit_is_told_from_it(tmp_path: Path, small: synthetic.Setup) -> None:
+    rows = synthetic.write(tmp_path, small)
+    judged = next(row for row in rows if row["status"])
+    judged.update(error=0.020004, band=0.02, status="FAIL")
+    (tmp_path / "metrics.json").write_text(json.dumps([judged]))
+    table = _table(verdict.section(load(tmp_path)), "bands")
+    assert table.rows[0][4:6] == ("2.0004\u00a0%", "2\u00a0%")
+
+
+def test_a_difference_is_shown_in_the_unit_of_its_quantity(tmp_path: Path, small: synthetic.Setup) -> None:
+    rows = synthetic.write(tmp_path, small)
+    judged = next(row for row in rows if row["status"])
+    judged.update(quantity="pressure", statistic="rms_difference", unit="Pa", error=1250.0, band=500.0)
+    (tmp_path / "metrics.json").write_text(json.dumps(rows))
+    table = _table(verdict.section(load(tmp_path)), "bands")
+    assert table.rows[0][4:7] == ("1.25\u00a0kPa", "0.5\u00a0kPa", "2.5")
+
+
+@pytest.mark.parametrize(
+    ("key", "quantity", "statistic", "factor", "has_row"),
+    [
+        ("section-flow", "section_flow_rate", "value", 1e6, False),
+        ("sector-flow", "sector_flow_rate", "value", 1e6, True),
+        ("change-pressure", "pressure", "change", 1.0, True),
+        ("change-radius", "radius", "change", 1e6, True),
+        ("change-sector_flow_rate", "sector_flow_rate", "change", 1e9, True),
+        ("change-section-flow", "section_flow_rate", "change", 1e9, False),
+    ],
+)
+def test_cell_tables_hold_the_metrics(
+    finished: tuple[Path, Rows], key: str, quantity: str, statistic: str, factor: float, has_row: bool
+) -> None:
+    directory, rows = finished
+    comparison = load(directory)
+    table = _table(change.section(comparison), key)
+    times = dict(zip(synthetic.Setup().time_names, (t for _, t in comparison.times), strict=True))
+    checked = 0
+    for line in table.rows:
+        t = times[line[1].split(" (")[0]]
+        j = int(line[2]) if has_row else None
+        for column, text in zip(table.columns[2 + has_row :], line[2 + has_row :], strict=True):
+            i = int(column.group.removeprefix("i = "))
+            row = _find(rows, variant=line[0], quantity=quantity, statistic=statistic, i=i, j=j, t_s=t)
+            value = factor * row["reference" if column.title == "3D" else "rom"]
+            decimals = len(text.partition(".")[2])
+            assert _number(text) == pytest.approx(value, abs=0.5001 * 10.0**-decimals)
+            checked += 1
+    assert checked == len(table.rows) * 2 * len(comparison.i)
+
+
+def test_cycle_quantities_hold_value_change_and_ratio(finished: tuple[Path, Rows]) -> None:
+    directory, rows = finished
+    table = _table(change.section(load(directory)), "cycle-quantities")
+    line = next(row for row in table.rows if row[:2] == ("least lumen radius", "local"))
+    what = {"variant": "local", "quantity": "least_radius"}
+    value, changed, ratio = (_find(rows, **what, statistic=name) for name in ("cycle", "change", "ratio"))
+    expected = [
+        1e3 * value["reference"],
+        1e3 * value["rom"],
+        100 * value["error"],
+        1e3 * changed["reference"],
+        1e3 * changed["rom"],
+        ratio["reference"],
+        ratio["rom"],
+    ]
+    assert [_number(text) for text in line[3:]] == pytest.approx(expected, abs=6e-3)
+
+
+def test_without_a_baseline_no_change_is_claimed(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    section = change.section(load(tmp_path))
+    assert any("no baseline" in p.text for p in _blocks(section, Paragraph))
+    assert not [table for table in _blocks(section, Table) if table.key.startswith("change")]
+    assert "ratio" not in [column.group for column in _table(section, "cycle-quantities").columns]
+
+
+def test_a_wall_that_is_the_same_all_around_shows_one_row_and_says_so(curves: Section) -> None:
+    none, local = curves.blocks[0], curves.blocks[2]
+    assert isinstance(none, Subsection)
+    assert isinstance(local, Subsection)
+    assert "one row stands for all: j = 1" in none.blocks[0].text  # type: ignore[union-attr]
+    assert len([b for b in none.blocks if isinstance(b, Figure)]) == 1
+    assert len([b for b in local.blocks if isinstance(b, Figure)]) == 4
+
+
+def test_a_figures_data_are_the_models_own(finished: tuple[Path, Rows], curves: Section) -> None:
+    directory, _ = finished
+    figure = next(f for f in _blocks(curves, Figure) if "radius" in f.key)
+    with xr.open_dataset(directory / "comparison.nc", decode_times=False) as data:
+        states = data.sizes["time"]
+        local = data.sel(variant="local")
+        rows = list(csv.DictReader(io.StringIO(figure.csv)))
+        assert len(rows) == states * 3 * 2
+        for row in rows[:: states - 1]:
+            at = {"x": int(row["i"]) - 1, "phi": int(row["j"]) - 1}
+            curve = local["reference_radius"].isel(at)
+            state = int(np.abs(data["time"].values - float(row["t_s"])).argmin())
+            assert float(row["reference"]) == pytest.approx(float(curve[state]), rel=1e-8)
+
+
+def test_a_caption_names_where_the_profiles_are_farthest_apart(finished: tuple[Path, Rows]) -> None:
+    comparison = load(finished[0])
+    figure = _blocks(velocity.section(comparison), Figure)[0]
+    one = comparison.profiles.sel(variant="none").isel(phi=0)
+    difference = (one["rom_axial_velocity"] - one["reference_axial_velocity"]).values
+    largest = difference.flat[np.abs(difference).argmax()]
+    assert f"{100 * largest:+.2f}".replace("-", "−") in figure.caption
+    assert figure.alt
+
+
+def test_many_cells_are_spread_over_several_figures_and_tables(
+    tmp_path: Path, small: synthetic.Setup
+) -> None:
+    synthetic.write(tmp_path, dataclasses.replace(small, i=tuple(range(1, 8))))
+    comparison = load(tmp_path)
+    keys = [table.key for table in _blocks(change.section(comparison), Table)]
+    assert [key for key in keys if key.startswith("section-flow")] == ["section-flow-1", "section-flow-6"]
+    figures = _blocks(velocity.section(comparison), Figure)
+    assert ["i = 1, 2, 3, 4 and 5" in figures[0].caption, "i = 6 and 7" in figures[1].caption] == [True, True]
+
+
+def test_a_reference_without_fields_leaves_gaps_not_errors(tmp_path: Path, small: synthetic.Setup) -> None:
+    setup = dataclasses.replace(small, variants=("none",))
+    rows = synthetic.write(tmp_path, setup)
+    arrays = synthetic.fields(setup)
+    for name in arrays:
+        if name.startswith("reference"):
+            arrays[name] = np.full_like(arrays[name], np.nan)
+    synthetic.dataset(setup, arrays).to_netcdf(tmp_path / "comparison.nc")
+    for row in rows:
+        row.update(reference=None, error=None)
+    (tmp_path / "metrics.json").write_text(json.dumps(rows))
+    comparison = load(tmp_path)
+    figure = _blocks(cycle.section(comparison), Figure)[0]
+    assert "no figure in one of the models" in figure.caption
+    assert "an unknown amount in 3D" in _blocks(cycle.section(comparison), Paragraph)[0].text
+    assert "—" in _table(change.section(comparison), "section-flow").rows[0]
+    assert _blocks(verdict.section(comparison), Bullets)
