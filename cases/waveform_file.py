@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from cases.errors import QuantityError, WaveformError
 from cases.units import parse_number
-from cases.wording import choices, nearest, shown
+from cases.wording import but_allowed, choices, nearest, shown
 
 # header name → factor to SI; decimal, so that 8.41199 cm/s is the float closest to 0.0841199
 TIME_COLUMNS = {"t_s": Decimal(1), "t_ms": Decimal("0.001")}
@@ -112,10 +112,8 @@ def _factors(number: int, names: list[str]) -> tuple[Decimal, Decimal]:
     known = TIME_COLUMNS | VELOCITY_COLUMNS
     for name in names:
         if name not in known:
-            allowed = choices(known)
-            raise WaveformError(
-                f", line {number}: unknown column {shown(name)}{nearest(name, known)}; allowed: {allowed}"
-            )
+            message = but_allowed(f"unknown column {shown(name)}{nearest(name, known)}", choices(known))
+            raise WaveformError(f", line {number}: {message}")
     if len(names) != 2 or names[0] not in TIME_COLUMNS or names[1] not in VELOCITY_COLUMNS:
         allowed = f"{choices(TIME_COLUMNS)}, then {choices(VELOCITY_COLUMNS)}"
         raise WaveformError(f", line {number}: columns {', '.join(names)}; allowed: {allowed}")

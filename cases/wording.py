@@ -9,7 +9,9 @@ LONGEST_SHOWN = 60
 def shown(value: object) -> str:
     """Show a value of a case file in a message, cut where it is long."""
     match value:
-        case None | "":
+        case None:
+            return "nothing"
+        case str() if not value.strip():
             return "nothing"
         case bool():
             return str(value).lower()

@@ -1,0 +1,95 @@
+import json
+
+import pytest
+
+from cases.__main__ import main
+from cases.json_schema import case_file_schema
+from cases.schema import Case
+from cases.yaml_nodes import parse_yaml
+
+
+def test_a_line_for_each_variant(ready_file, capsys):
+    assert main([str(ready_file)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == (
+        f"{ready_file}: none: calcification none, 120 x 48 cells, 3 cycles of 0.79733 s, "
+        "reference none.xplt, 2 bands"
+    )
+    assert [line.split(": ")[1] for line in lines] == ["none", "axisymmetric", "local"]
+
+
+def test_a_wrong_file_does_not_hide_the_others(folder, ready_file, capsys):
+    wrong = folder.write(("0.5 mm", "0.5"))
+    assert main([str(wrong), str(ready_file)]) == 2
+    output = capsys.readouterr()
+    assert output.err.startswith(f"{wrong}, line 6: geometry.wall_thickness: ")
+    assert "Traceback" not in output.err
+    assert len(output.out.splitlines()) == 3
+
+
+@pytest.mark.parametrize("arguments", [[], ["--schema", "x.yaml"], ["--nonsense"]])
+def test_wrong_arguments_end_with_status_2(arguments, capsys):
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    assert caught.value.code == 2
+
+
+def test_the_schema_is_json_and_knows_every_key(capsys):
+    assert main(["--schema"]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    assert set(schema["properties"]) == {"name", "variants", *Case.model_fields}
+    assert schema["additionalProperties"] is False
+
+
+def accepts(schema, value, definitions):
+    """Check the few JSON-schema words that the case file's schema uses."""
+    if "$ref" in schema:
+        return accepts(definitions[schema["$ref"].removeprefix("#/$defs/")], value, definitions)
+    if "anyOf" in schema:
+        return any(accepts(option, value, definitions) for option in schema["anyOf"])
+    if "enum" in schema or "const" in schema:
+        return value in schema.get("enum", [schema.get("const")])
+    types = {
+        "object": dict,
+        "array": list,
+        "string": str,
+        "integer": int,
+        "number": int | float,
+        "null": type(None),
+    }
+    stated = schema["type"] if isinstance(schema["type"], list) else [schema["type"]]
+    if not any(isinstance(value, types[name]) for name in stated):
+        return False
+    if isinstance(value, dict):
+        known, others = schema.get("properties", {}), schema["additionalProperties"]
+        return all(
+            accepts(known[key], below, definitions)
+            if key in known
+            else others and accepts(others, below, definitions)
+            for key, below in value.items()
+        )
+    if isinstance(value, list):
+        items = schema.get("prefixItems", [schema.get("items")] * len(value))
+        return len(items) == len(value) and all(map(lambda s, v: accepts(s, v, definitions), items, value))
+    return True
+
+
+def test_the_schema_accepts_the_ready_file_and_refuses_mistakes(ready_file):
+    schema = case_file_schema()
+
+    def accepted(text):
+        return accepts(schema, parse_yaml(text, ready_file).plain(), schema["$defs"])
+
+    text = ready_file.read_text()
+    assert accepted(text)
+    for old, new in [
+        ("wall_thickness", "wall_thicknes"),
+        ("law: thick", "law: thik"),
+        ("15 mm", "15"),
+        ("n_x: 120", "n_x: 120 cells"),
+        ("quantity: radius", "quantity: radios"),
+        ("pattern: local", "pattern: lokal"),
+        ("x: [5 mm, 10 mm]", "x: [5 mm]"),
+        ("variants:", "variant:"),
+    ]:
+        assert not accepted(text.replace(old, new)), new
