@@ -21,7 +21,7 @@ def identity(comparison: Comparison) -> str:
 def report(comparison: Comparison) -> Report:
     """Compose the report of a comparison; every figure is drawn here."""
     return Report(
-        title=comparison.title,
+        title=comparison.title or comparison.case,
         subtitle="A two-dimensional reduced-order model of the artery (2D) against three-dimensional "
         f"fluid–structure simulation (3D), cell by cell: {counted(len(comparison.variants), 'variant')}, "
         f"{listed(comparison.variants)}.",

@@ -13,7 +13,7 @@ from reports.figures import Curves, PanelRow, small_multiples
 from reports.load import Comparison
 from reports.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
 from reports.tabular import comma_separated
-from reports.words import column_heading, row_heading
+from reports.words import column_heading, row_heading, spot
 
 Array = NDArray[np.float64]
 
@@ -62,9 +62,8 @@ def _farthest(comparison: Comparison, line: _Line) -> str:
     state, column = np.unravel_index(int(np.nanargmax(np.abs(difference))), difference.shape)
     unit, factor = DIFFERENCE_UNITS[line.field.unit]
     t = float(comparison.curves["time"].values[state])
-    row = "" if line.j is None else f", j = {line.j}"
     value = with_unit(signed(float(difference[state, column]) * factor), unit)
-    return f"{line.field.label} {value} (i = {comparison.i[column]}{row}, t = {t:.3f} s)"
+    return f"{line.field.label} {value} ({spot(comparison.i[int(column)], line.j, t)})"
 
 
 def _worst_line(lines: Sequence[_Line]) -> _Line:
@@ -91,9 +90,9 @@ def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Li
             Figure(
                 key=f"{key}-{columns[0]}",
                 caption=f"Variant {variant}: {what} over the cycle at {cells}; 3D as points, 2D as a line, "
-                f"2D − 3D below. Farthest apart: {farthest}. The closer the lower panels stay to zero, "
-                "the better the 2D model follows; a flat line off zero is a constant offset. Dotted: "
-                "the named times.",
+                f"2D − 3D below; each row has its own scale. Farthest apart: {farthest}. "
+                "The closer the lower panels stay to zero, the better the 2D model follows; a flat line off "
+                "zero is a constant offset. Dotted: the named times.",
                 alt=f"Curves of {what} over time in 3D and 2D with their difference, variant {variant}, a "
                 f"column of panels for each of {cells}. Farthest apart: {farthest}.",
                 svg=svg,

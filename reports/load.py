@@ -26,21 +26,21 @@ _ATTRIBUTES = (
     "compare_times_s",
     "case_yaml",
 )
-_PROVENANCE = (
-    "created",
-    "command",
-    "git_commit",
-    "package_version",
-    "python",
-    "versions",
-    "machine",
-    "case",
-    "inputs",
-    "wall_times_s",
-    "notes",
-    "variants",
-    "bands",
-)
+_PROVENANCE: dict[str, tuple[type, ...]] = {
+    "created": (str,),
+    "command": (str,),
+    "git_commit": (str, type(None)),
+    "package_version": (str,),
+    "python": (str,),
+    "versions": (dict,),
+    "machine": (dict,),
+    "case": (dict,),
+    "inputs": (list,),
+    "wall_times_s": (dict,),
+    "notes": (list,),
+    "variants": (dict,),
+    "bands": (list,),
+}
 
 
 @dataclass(frozen=True)
@@ -130,6 +130,10 @@ def _read_provenance(path: Path) -> dict[str, Any]:
     missing = [key for key in _PROVENANCE if key not in provenance]
     if missing:
         raise ReportError(f"{path}: without {', '.join(missing)}")
+    for key, allowed in _PROVENANCE.items():
+        if not isinstance(provenance[key], allowed):
+            names = " or ".join(kind.__name__ for kind in allowed)
+            raise ReportError(f"{path}: {key} is {provenance[key]!r}; {names} is expected")
     return provenance
 
 

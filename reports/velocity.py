@@ -12,9 +12,9 @@ from reports.cells import chunks
 from reports.figures import Curves, PanelRow, small_multiples
 from reports.load import Comparison
 from reports.metrics import Metrics
-from reports.numbers import fixed, listed, signed, with_unit
+from reports.numbers import SPACE, fixed, listed, signed, with_unit
 from reports.tabular import comma_separated
-from reports.words import column_heading, instant, row_heading
+from reports.words import column_heading, instant, row_heading, spot
 
 _FIELD = FIELDS["axial_velocity"]
 
@@ -69,8 +69,8 @@ def _farthest(comparison: Comparison, lines: Sequence[_Line]) -> str:
     )
     line = lines[int(row)]
     return (
-        f"the models are farthest apart, 2D − 3D = {value}, at r/R = {y:.2f} "
-        f"(i = {comparison.i[column]}, j = {line.j}, t = {line.t_s:.3f} s)"
+        f"the models are farthest apart, 2D − 3D = {value}, at r/R{SPACE}={SPACE}{y:.2f} "
+        f"({spot(comparison.i[int(column)], line.j, line.t_s)})"
     )
 
 
@@ -85,8 +85,9 @@ def _figures(
         figures.append(
             Figure(
                 key=f"{key}-{columns[0]}",
-                caption=f"Variant {variant}, {when}: axial velocity along the ray from the axis (r/R = 0) "
-                f"to the wall (r/R = 1) at {cells}; 3D as points, 2D as a line. In these panels {farthest}. "
+                caption=f"Variant {variant}, {when}: axial velocity along the ray from the axis "
+                f"(r/R{SPACE}={SPACE}0) to the wall (r/R{SPACE}={SPACE}1) at {cells}; 3D as points, 2D as a "
+                f"line. In these panels {farthest}. "
                 "γ is the exponent of the 2D model's profile and of the profile closest to 3D: 2 is a "
                 "parabola, more is flatter.",
                 alt=f"Velocity profiles of 3D and 2D, variant {variant}, {when}, a panel for each of "

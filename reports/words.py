@@ -62,12 +62,17 @@ def limit(row: Row) -> str:
     return with_unit(f"{row.band * field.display_factor:.6g}", field.display_unit)
 
 
-def place(row: Row) -> str:
-    """Where and when a figure was taken, e.g. "i = 61, j = 25, t = 0.090 s"."""
-    parts = [f"{name}{SPACE}={SPACE}{number}" for name, number in (("i", row.i), ("j", row.j)) if number]
-    if row.t_s is not None:
-        parts.append(f"t{SPACE}={SPACE}{row.t_s:.3f}{SPACE}s")
+def spot(i: int | None, j: int | None, t_s: float | None) -> str:
+    """Say where and when, e.g. "i = 61, j = 25, t = 0.090 s", with no line break inside an equation."""
+    parts = [f"{name}{SPACE}={SPACE}{number}" for name, number in (("i", i), ("j", j)) if number is not None]
+    if t_s is not None:
+        parts.append(f"t{SPACE}={SPACE}{t_s:.3f}{SPACE}s")
     return ", ".join(parts)
+
+
+def place(row: Row) -> str:
+    """Say where and when a figure was taken."""
+    return spot(row.i, row.j, row.t_s)
 
 
 def column_heading(comparison: Comparison, i: int) -> str:

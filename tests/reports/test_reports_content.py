@@ -31,7 +31,8 @@ def curves(finished: tuple[Path, Rows]) -> Section:
 
 
 def _table(section: Section, key: str) -> Table:
-    return next(table for table in _blocks(section, Table) if table.key == key)
+    tables: list[Table] = _blocks(section, Table)
+    return next(table for table in tables if table.key == key)
 
 
 def _number(text: str) -> float:

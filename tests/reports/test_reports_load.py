@@ -126,6 +126,13 @@ def test_a_missing_key_of_provenance_is_named(tmp_path: Path, small: synthetic.S
         load(tmp_path)
 
 
+def test_a_key_of_provenance_of_another_type_is_named(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    _change_json(tmp_path / "provenance.json", lambda p: p.update(inputs="none.xplt"))
+    with pytest.raises(ReportError, match=r"inputs is 'none\.xplt'; list is expected"):
+        load(tmp_path)
+
+
 def test_the_command_reports_bad_input_in_one_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
