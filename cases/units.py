@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 LONGEST_TEXT = 100
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 LETTER = r"[^\W\d_]"
-TERM = rf"(?:{LETTER}+(?:[0-9]{LETTER}+)?(?:\^?-?[0-9])?|°|%)"  # mm, m^3, m3, s-1; cmH2O
+TERM = rf"(?:{LETTER}+(?:[0-9]{LETTER}+)?(?:\^?-?[1-9])?|°|%)"  # mm, m^3, m3, s-1; cmH2O
 UNIT = re.compile(rf"{TERM}(?:(?:\s*[*/]\s*|\s+){TERM})*")
 BARE_EXPONENT = re.compile(rf"(?<={LETTER})(-?[0-9])(?!\w)")
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·", "0123456789-*")
@@ -153,7 +153,7 @@ def _si_factor(unit: str, dimension: Dimension) -> Decimal:
         raise QuantityError("not a number with a unit")
     try:
         factor, base = _base_units(plain_unit)
-    except PintError as error:
+    except (PintError, ValueError) as error:  # ValueError: the word nan
         raise QuantityError(f"unknown unit {shown(unit)}{nearest(unit, dimension.common_units)}") from error
     # base units, not dimensionality: pint counts an angle as dimensionless, and 15 mm rad is no length
     if base != _base_units(dimension.unit)[1]:

@@ -89,6 +89,8 @@ def test_any_text_is_a_finite_quantity_or_refused(text, name):
         ("15 mmm", "length", "unknown unit mmm; did you mean mm?"),
         ("15 mpa", "pressure", "unknown unit mpa; did you mean MPa?"),
         ("15 xyzzy", "length", "unknown unit xyzzy"),
+        ("15 nan", "length", "unknown unit nan"),
+        ("15 m^0", "length", "not a number with a unit"),
         ("1e999 m", "length", "out of range"),
         ("1e9999999999999999999999 m", "length", "out of range"),
         ("nan m", "length", "not a number with a unit"),
