@@ -13,6 +13,7 @@ import numpy as np
 from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
@@ -129,8 +130,7 @@ def small_multiples(
             _curves(next(lines), row, abscissa, marks, from_zero)
             if row.difference:
                 _differences(next(lines), row, abscissa, marks)
-        for axis in axes[-1]:
-            axis.tick_params(labelbottom=True)
+        _abscissas(axes, abscissa)
         figure.supxlabel(abscissa_label, fontsize=7.5, y=0.06 / total, va="bottom")
         return _svg(figure)
 
@@ -154,13 +154,10 @@ def _panels(figure: Figure, heights: Sequence[float], n_columns: int, total: flo
             ]
         )
         top = bottom - _ROW_GAP
-    for line in grid:
-        for column, axis in enumerate(line):
-            axis.spines[["top", "right"]].set_visible(False)
-            axis.tick_params(labelbottom=False, labelleft=column == 0)
-            axis.xaxis.set_major_locator(MaxNLocator(3))
-            axis.grid(visible=True, linewidth=0.3, color="#dddddd")
-            axis.set_axisbelow(True)
+    for axis in (axis for line in grid for axis in line):
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.set_xticks([])
+        axis.set_yticks([])
     return grid
 
 
@@ -204,10 +201,9 @@ def _curves(
             markeredgewidth=0,
             markevery=every,
         )
-        axis.set_ylim(*limits)
-        axis.yaxis.set_major_locator(MaxNLocator(4))
         if panel.note:
             axis.text(0.04, 0.05, panel.note, transform=axis.transAxes, fontsize=6.0, parse_math=False)
+    _ordinates(axes, limits, 4)
     axes[0].set_ylabel(row.quantity, fontsize=7.5, labelpad=2.0)
     _row_label(axes[-1], row.label)
 
@@ -219,9 +215,34 @@ def _differences(axes: Sequence[Axes], row: PanelRow, abscissa: Array, marks: Se
         _mark(axis, marks)
         axis.axhline(0.0, color="#555555", linewidth=0.5)
         axis.plot(abscissa, values, color=DIFFERENCE_COLOUR, linewidth=1.1, linestyle=(0, (4, 1)))
-        axis.set_ylim(*limits)
-        axis.yaxis.set_major_locator(MaxNLocator(3))
+    _ordinates(axes, limits, 3)
     axes[0].set_ylabel(row.difference, fontsize=7.0, labelpad=2.0)
+
+
+def _abscissas(axes: Sequence[Sequence[Axes]], abscissa: Array) -> None:
+    """Give all panels one horizontal axis, with numbers below the last row only."""
+    low, high = _limits([abscissa], from_zero=False)
+    for axis in (axis for line in axes for axis in line):
+        axis.set_xlim(low, high)
+    for axis in axes[-1]:
+        axis.set_xticks(_ticks(low, high, 3))
+
+
+def _ordinates(axes: Sequence[Axes], limits: tuple[float, float], most: int) -> None:
+    """Give a row of panels one vertical axis, with numbers at its first panel and lines across all."""
+    ticks = _ticks(*limits, most)
+    for axis in axes:
+        axis.set_ylim(*limits)
+        lines = [[(0.0, tick), (1.0, tick)] for tick in ticks]
+        across = LineCollection(
+            lines, colors="#d8d8d8", linewidths=0.4, zorder=0.5, transform=axis.get_yaxis_transform()
+        )
+        axis.add_collection(across, autolim=False)
+    axes[0].set_yticks(ticks)
+
+
+def _ticks(low: float, high: float, most: int) -> list[float]:
+    return [float(tick) for tick in MaxNLocator(most).tick_values(low, high) if low <= tick <= high]
 
 
 def _mark(axis: Axes, marks: Sequence[float]) -> None:
@@ -252,7 +273,8 @@ def _limits(arrays: Sequence[Array], from_zero: bool) -> tuple[float, float]:
     if values.size == 0:
         return 0.0, 1.0
     low, high = float(values.min()), float(values.max())
-    margin = 0.06 * (high - low) or 0.05 * abs(high) or 1.0
+    span = high - low if high - low > 1e-9 * max(abs(low), abs(high)) else 0.0  # not what is mere round-off
+    margin = 0.06 * span or 0.05 * abs(high) or 1.0
     return (low if from_zero and low == 0 else low - margin), high + margin
 
 
