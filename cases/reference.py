@@ -14,7 +14,8 @@ NEXT_AXIS: dict[str, Direction] = {"x": "y", "y": "z", "z": "x"}
 
 
 def _default_phi_zero(reference: dict[str, Any]) -> Direction:
-    return NEXT_AXIS[reference["axis"]]
+    # where the axis was refused there is none, and the section is refused whatever stands here
+    return NEXT_AXIS[reference.get("axis", "z")]
 
 
 class FebioReference(Section):

@@ -48,7 +48,7 @@ class ValueKind:
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Check values by `parse` alone; see pydantic's documentation of custom types."""
 
-        def check(value: object, info: core_schema.ValidationInfo[Context | None]) -> object:
+        def check(value: object, info: "core_schema.ValidationInfo[Context | None]") -> object:
             return self.parse(value, info.context)
 
         return core_schema.with_info_plain_validator_function(check)
