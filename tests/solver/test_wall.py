@@ -1,0 +1,73 @@
+"""Wall laws."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solver.errors import ModelError
+from solver.wall import area_from_pressure, pressure_from_area, wall_stiffness
+
+RADIUS, THICKNESS, MODULUS = 2.5e-3, 0.5e-3, 0.6e6
+
+
+def test_the_thesis_artery():
+    assert wall_stiffness("thin", MODULUS, RADIUS, THICKNESS, 0.48) == pytest.approx(400, rel=1e-12)
+    assert wall_stiffness("thick", MODULUS, RADIUS, THICKNESS, 0.48) == pytest.approx(301, abs=0.5)
+
+
+def test_displacement_per_pressure_is_lames():
+    """Lamé's displacement gives 2.074e-8 m/Pa, the thin wall 1.5625e-8 m/Pa."""
+    for law, flexibility in (("thin", 1.5625e-8), ("thick", 2.074e-8)):
+        beta = wall_stiffness(law, MODULUS, RADIUS, THICKNESS, 0.48)
+        assert RADIUS**2 / beta == pytest.approx(flexibility, rel=5e-4)
+
+
+@given(st.floats(1e-3, 0.4), st.floats(0.0, 0.499), st.floats(1e4, 1e8))
+def test_thick_wall_solves_lames_problem(slenderness, ratio, modulus):
+    """σ_r = −P at R₀, 0 at b, plane strain: u = C₁ r + C₂/r, by solving for C₁ and C₂."""
+    inner, outer = RADIUS, RADIUS * (1 + slenderness)
+    shear = modulus / (2 * (1 + ratio))
+    matrix = [[2 * shear / (1 - 2 * ratio), -2 * shear / r**2] for r in (inner, outer)]
+    first, second = np.linalg.solve(matrix, [-1.0, 0.0])
+    displacement = first * inner + second / inner
+    beta = wall_stiffness("thick", modulus, RADIUS, RADIUS * slenderness, ratio)
+    assert RADIUS**2 / beta == pytest.approx(displacement, rel=1e-6)
+
+
+def test_a_thin_thick_wall_of_ratio_one_half_is_the_thin_wall():
+    thickness = 1e-5 * RADIUS
+    thick = wall_stiffness("thick", MODULUS, RADIUS, thickness, 0.5)
+    thin = wall_stiffness("thin", MODULUS, RADIUS, thickness, 0.5)
+    assert thick == pytest.approx(thin, rel=2e-5)
+
+
+@pytest.mark.parametrize("law", ["thin", "thick"])
+def test_stiffness_is_proportional_to_the_modulus(law):
+    one = wall_stiffness(law, 1.0, RADIUS, THICKNESS, 0.48)
+    moduli = np.array([[0.6e6, 10e6]])
+    result = wall_stiffness(law, moduli, RADIUS, THICKNESS, 0.48)
+    assert result.shape == moduli.shape
+    np.testing.assert_allclose(result, one * moduli, rtol=1e-14)
+
+
+def test_an_unknown_law_is_refused_by_name():
+    with pytest.raises(ModelError, match=r"'rubber' is unknown; allowed: thin, thick"):
+        wall_stiffness("rubber", MODULUS, RADIUS, THICKNESS, 0.48)
+
+
+@given(st.floats(-1e4, 3e4), st.floats(300, 1e4), st.floats(-5e3, 5e3))
+def test_pressure_and_area_are_inverse(pressure, stiffness, reference):
+    beta = np.array([stiffness])
+    area = area_from_pressure(pressure, beta, RADIUS, reference)
+    back = pressure_from_area(area, beta, RADIUS, reference)
+    assert back[0] == pytest.approx(pressure, rel=1e-9, abs=1e-6)
+
+
+def test_pressure_law():
+    """10 kPa widen the thin wall to 2.65625 mm, 1 kPa to 2.515625 mm (2.2.1)."""
+    for load, radius in ((10e3, 2.65625e-3), (1e3, 2.515625e-3)):
+        assert np.sqrt(area_from_pressure(load, np.array([400.0]), RADIUS, 0.0))[0] == pytest.approx(radius)
+        assert pressure_from_area(np.array([radius**2]), np.array([400.0]), RADIUS, 0.0)[0] == pytest.approx(
+            load
+        )

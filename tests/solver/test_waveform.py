@@ -1,0 +1,85 @@
+"""Waveforms: PCHIP, periodic."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from thesis_artery import DIASTOLE, thesis_waveform
+
+from solver.errors import ModelError
+from solver.waveform import Waveform, constant, local_minima
+
+
+@st.composite
+def waveforms(draw):
+    steps = draw(st.lists(st.floats(0.01, 1.0), min_size=2, max_size=12))
+    inner = draw(st.lists(st.floats(-1.0, 1.0), min_size=len(steps) - 1, max_size=len(steps) - 1))
+    first = draw(st.floats(-1.0, 1.0))
+    return Waveform(np.concatenate(([0.0], np.cumsum(steps))), np.array([first, *inner, first]))
+
+
+@given(waveforms())
+def test_through_its_points(waveform):
+    np.testing.assert_allclose(waveform(waveform.times), waveform.values, atol=1e-12)
+    assert waveform.period == waveform.times[-1]
+
+
+@given(waveforms(), st.floats(0, 1), st.integers(-3, 5))
+def test_periodic(waveform, phase, cycles):
+    time = phase * waveform.period
+    steepest = 4 * np.max(np.abs(np.diff(waveform.values) / np.diff(waveform.times)))
+    rounding = steepest * 1e-14 * waveform.period * (1 + abs(cycles))
+    again = waveform(time + cycles * waveform.period)
+    assert again == pytest.approx(waveform(time), abs=1e-12 + rounding)
+
+
+@given(waveforms())
+def test_monotone_between_points(waveform):
+    for begin, end in zip(waveform.times[:-1], waveform.times[1:], strict=True):
+        inside = waveform(np.linspace(begin, end, 50, endpoint=False))
+        rise = np.diff(inside)
+        assert np.all(rise >= -1e-12) or np.all(rise <= 1e-12)
+
+
+def test_shape_of_the_answer():
+    waveform = thesis_waveform()
+    assert waveform(0.1).shape == ()
+    assert waveform(np.zeros((2, 3))).shape == (2, 3)
+
+
+def test_constant():
+    np.testing.assert_array_equal(constant(0.2, 0.8)(np.linspace(-1, 5, 50)), 0.2)
+
+
+def test_the_thesis_inlet():
+    waveform = thesis_waveform()
+    assert waveform(0.0) == pytest.approx(DIASTOLE, rel=1e-12)
+    assert waveform.period == pytest.approx(2.392 / 3, rel=1e-5)
+    minima = local_minima(waveform)
+    np.testing.assert_allclose(minima, [0.169, 0.2825, 0.74], atol=5e-4)
+    assert waveform(minima[1]) < waveform(minima[0])
+
+
+@given(st.integers(1, 4), st.floats(0, 0.1))
+def test_minima_of_a_wave_with_known_ones(count, floor):
+    """A cosine with ``count`` periods a cycle has its minima half way; the first crest is at 0."""
+    times = np.linspace(0, 1, 40 * count + 1)
+    values = np.cos(2 * np.pi * count * times) - floor * times * (1 - times)
+    minima = local_minima(Waveform(times, values))
+    np.testing.assert_allclose(minima, (np.arange(count) + 0.5) / count, atol=0.5 / count / 20)
+
+
+@pytest.mark.parametrize(
+    ("times", "values", "message"),
+    [
+        ([0.0], [1.0], "two or more times"),
+        ([0.1, 1.0], [1.0, 1.0], "start at 0"),
+        ([0.0, 0.5, 0.5, 1.0], [1.0, 2.0, 1.0, 1.0], "increase"),
+        ([0.0, np.nan, 1.0], [1.0, 2.0, 1.0], "increase"),
+        ([0.0, 0.5, 1.0], [1.0, np.nan, 1.0], "finite"),
+        ([0.0, 0.5, 1.0], [1.0, np.inf, 1.0], "finite"),
+    ],
+)
+def test_unusable_waveforms_are_refused(times, values, message):
+    with pytest.raises(ModelError, match=message):
+        Waveform(np.array(times), np.array(values))
