@@ -3,6 +3,7 @@
 from febio_io.xplt.dictionary import Variable
 from febio_io.xplt.elements import ELEMENT_TYPES, ElementType
 from febio_io.xplt.mesh import Domain, Edge, ElementSet, Mesh, NodeSet, Part, Surface
+from febio_io.xplt.objects import ModelObject, ObjectState
 from febio_io.xplt.reader import Plot, open_plot
 
 __all__ = [
@@ -12,7 +13,9 @@ __all__ = [
     "ElementSet",
     "ElementType",
     "Mesh",
+    "ModelObject",
     "NodeSet",
+    "ObjectState",
     "Part",
     "Plot",
     "Surface",

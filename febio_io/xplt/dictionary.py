@@ -8,7 +8,7 @@ from typing import Literal
 from febio_io.xplt.container import Chunk, Source, children, required
 from febio_io.xplt.tags import Tag
 
-SectionName = Literal["global", "node", "domain", "surface", "edge"]
+SectionName = Literal["global", "node", "domain", "surface", "edge", "object"]
 
 SECTIONS: dict[int, SectionName] = {
     Tag.DIC_GLOBAL: "global",
@@ -45,8 +45,8 @@ class Variable:
 
     Attributes
     ----------
-    section : {"global", "node", "domain", "surface", "edge"}
-        What its values belong to.
+    section : {"global", "node", "domain", "surface", "edge", "object"}
+        What its values belong to; "object" only in the variables of a mesh's objects.
     index : int
         Its 1-based place in its section's list; names may repeat, places do not.
     name : str
@@ -127,10 +127,17 @@ def _variables(source: Source, dictionary: Chunk) -> Iterator[Variable]:
         if section.tag in SECTIONS:
             items = (item for item in children(source, section) if item.tag == Tag.DIC_ITEM)
             for index, item in enumerate(items, start=1):
-                yield _read_item(source, item, SECTIONS[section.tag], index)
+                yield read_variable(source, item, SECTIONS[section.tag], index)
 
 
-def _read_item(source: Source, item: Chunk, section: SectionName, index: int) -> Variable:
+def read_variable(source: Source, item: Chunk, section: SectionName, index: int) -> Variable:
+    """Read one item of the dictionary, or of an object's own list of variables.
+
+    Raises
+    ------
+    FebioFormatError
+        If it lacks its name, type or format.
+    """
     parts: dict[int, Chunk] = {}
     array_names = []
     for part in children(source, item):

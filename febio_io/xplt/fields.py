@@ -35,11 +35,15 @@ class StateData:
         The file, or the inflated state.
     variables : dict
         The data chunk of each (section, index) that the state has.
+    mesh_state, objects : Chunk or None
+        What the state says of its elements and of the objects, where it does.
     """
 
     number: int
     source: Source
     variables: dict[tuple[SectionName, int], Chunk]
+    mesh_state: Chunk | None = None
+    objects: Chunk | None = None
 
 
 def locate_variables(source: Source, state: Chunk, number: int) -> StateData:
@@ -51,7 +55,8 @@ def locate_variables(source: Source, state: Chunk, number: int) -> StateData:
         If a chunk does not fit or a variable occurs twice.
     """
     found: dict[tuple[SectionName, int], Chunk] = {}
-    data = children_by_tag(source, state).get(Tag.STATE_DATA)
+    branches = children_by_tag(source, state)
+    data = branches.get(Tag.STATE_DATA)
     for section in children(source, data) if data else ():
         if section.tag not in DATA_SECTIONS:
             continue
@@ -66,7 +71,7 @@ def locate_variables(source: Source, state: Chunk, number: int) -> StateData:
                     f"{key[0]} variable {index} occurs twice in state {number}", entry.start, entry.tag
                 )
             found[key] = required(source, entry, parts, Tag.VARIABLE_DATA)
-    return StateData(number, source, found)
+    return StateData(number, source, found, branches.get(Tag.MESH_STATE), branches.get(Tag.OBJECTS_STATE))
 
 
 def regions_of(variable: Variable, mesh: Mesh) -> dict[int, Region | None]:
@@ -166,13 +171,43 @@ def _problem(
     return None
 
 
-def read_block(state: StateData, variable: Variable, mesh: Mesh, block: Chunk) -> Values:
-    """Copy the values of a block that :func:`find_blocks` found.
+def view_block(state: StateData, variable: Variable, mesh: Mesh, block: Chunk) -> Values:
+    """View the values of a block that :func:`find_blocks` found.
 
     Returns
     -------
     float32 array
-        The values, in the shape of :func:`block_shape`.
+        The values, in the shape of :func:`block_shape`: read-only, and the stored bytes themselves where
+        these have the machine's byte order.
     """
     shape = block_shape(variable, mesh, regions_of(variable, mesh)[block.tag])
-    return np.array(state.source.array(block, "f4"), dtype=np.float32).reshape(shape or ())
+    values = state.source.array(block, "f4").astype(np.float32, copy=False).reshape(shape or ())
+    values.flags.writeable = False
+    return values
+
+
+def read_active_elements(state: StateData, mesh: Mesh) -> NDArray[np.bool_]:
+    """Read which elements take part in a state.
+
+    Returns
+    -------
+    (n_elements,) bool array
+        False for eroded elements; domain by domain, in the order of each domain's elements.
+
+    Raises
+    ------
+    FebioFormatError
+        If the state does not tell of as many elements as the mesh has.
+    """
+    flags = children_by_tag(state.source, state.mesh_state) if state.mesh_state else {}
+    if Tag.ELEMENT_STATE not in flags:
+        return np.ones(mesh.n_elements, dtype=bool)
+    chunk = flags[Tag.ELEMENT_STATE]
+    values = state.source.array(chunk, "u4")
+    if len(values) != mesh.n_elements:
+        raise state.source.error(
+            f"flags of {len(values)} elements in state {state.number}, whose mesh has {mesh.n_elements}",
+            chunk.start,
+            chunk.tag,
+        )
+    return (values & 1).astype(bool)

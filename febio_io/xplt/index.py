@@ -1,7 +1,9 @@
 """The top level of a plot file: where each mesh and state lies, raw or compressed."""
 
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -50,22 +52,25 @@ class Index:
         Byte where an incomplete section starts; None if the file is whole.
     skipped : tuple of int
         Tags of chunks of a kind not known here.
+    inflated : dict of int to bytes
+        Compressed sections that were kept when they had been inflated, by their offset.
     """
 
     sections: tuple[Section, ...]
     cut_at: int | None
     skipped: tuple[int, ...]
+    inflated: dict[int, bytes]
 
 
 class _CutOffError(Exception):
     """The file ends before the section does."""
 
 
-def read_index(source: Source, start: int) -> Index:
+def read_index(source: Source, start: int, keep: int = 0) -> Index:
     """Find every mesh and state.
 
-    Raw sections are hopped over; compressed ones are inflated once, block by block, because no length of
-    theirs is stored.
+    Raw sections are hopped over; compressed ones are inflated once, because no length of theirs is stored.
+    The first of them are kept; once no more may be, they are inflated block by block and forgotten.
 
     Parameters
     ----------
@@ -73,6 +78,8 @@ def read_index(source: Source, start: int) -> Index:
         The file.
     start : int
         Byte after the root chunk.
+    keep : int, optional
+        Bytes of inflated sections that may be kept in all.
 
     Returns
     -------
@@ -86,22 +93,37 @@ def read_index(source: Source, start: int) -> Index:
     """
     sections: list[Section] = []
     skipped: set[int] = set()
+    inflated: dict[int, bytes] = {}
     position, end = start, len(source.data)
     while position < end:
         try:
-            section = _read_section(source, position)
+            section, content = _read_section(source, position, keep)
         except _CutOffError:
-            return Index(tuple(sections), position, tuple(sorted(skipped)))
+            return Index(tuple(sections), position, tuple(sorted(skipped)), inflated)
         if section.tag in (Tag.MESH, Tag.STATE):
             sections.append(section)
+            if content:
+                inflated[position] = content
+                keep -= len(content)
         else:
             skipped.add(section.tag)
         position = section.offset + section.length
-    return Index(tuple(sections), None, tuple(sorted(skipped)))
+    return Index(tuple(sections), None, tuple(sorted(skipped)), inflated)
 
 
-def open_section(source: Source, section: Section) -> tuple[Source, Chunk]:
+def open_section(
+    source: Source, section: Section, kept: Mapping[int, bytes] = MappingProxyType({})
+) -> tuple[Source, Chunk]:
     """Give the bytes of a section, inflated where they are compressed.
+
+    Parameters
+    ----------
+    source : Source
+        The file.
+    section : Section
+        The section.
+    kept : mapping of int to bytes
+        Sections that the index kept when it had inflated them.
 
     Returns
     -------
@@ -112,25 +134,29 @@ def open_section(source: Source, section: Section) -> tuple[Source, Chunk]:
     """
     if not section.compressed:
         return source, Chunk(section.tag, section.offset + HEADER_SIZE, section.size)
-    stream = source.data[section.offset : section.offset + section.length]
-    try:
-        # The index has seen that the stream gives just this many bytes.
-        inflated = zlib.decompress(stream, bufsize=HEADER_SIZE + section.size)
-    except zlib.error as error:
-        raise source.error(f"damaged compressed data: {error}", section.offset) from error
-    return replace(source, data=inflated, stream_offset=section.offset), Chunk(
+    content = kept[section.offset] if section.offset in kept else _inflate(source, section)
+    return replace(source, data=content, stream_offset=section.offset), Chunk(
         section.tag, HEADER_SIZE, section.size
     )
 
 
-def _read_section(source: Source, position: int) -> Section:
+def _inflate(source: Source, section: Section) -> bytes:
+    stream = source.data[section.offset : section.offset + section.length]
+    try:
+        # The index has seen that the stream gives just this many bytes.
+        return zlib.decompress(stream, bufsize=HEADER_SIZE + section.size)
+    except zlib.error as error:
+        raise source.error(f"damaged compressed data: {error}", section.offset) from error
+
+
+def _read_section(source: Source, position: int, keep: int) -> tuple[Section, bytes]:
     left = len(source.data) - position
     if left < HEADER_SIZE:
         raise _CutOffError
     tag, size = PAIR[source.order].unpack_from(source.data, position)
     if tag not in (Tag.MESH, Tag.STATE):
         if is_zlib_start(source.data[position], source.data[position + 1]):
-            return _read_compressed(source, position)
+            return _read_compressed(source, position, keep)
         if tag == 0 and not np.frombuffer(source.data, np.uint8, offset=position).any():
             # A file system may have reserved room that the interrupted program never wrote to.
             raise _CutOffError
@@ -140,28 +166,35 @@ def _read_section(source: Source, position: int) -> Section:
         raise _CutOffError
     chunk = Chunk(tag, position + HEADER_SIZE, size)
     head = _state_head(source, chunk) if tag == Tag.STATE else b""
-    return Section(tag, position, HEADER_SIZE + size, size, compressed=False, head=head)
+    return Section(tag, position, HEADER_SIZE + size, size, compressed=False, head=head), b""
 
 
 def _state_head(source: Source, state: Chunk) -> bytes:
     for child in children(source, state):
         if child.tag == Tag.STATE_HEADER:
+            if child.size > LARGEST_STATE_HEADER:
+                raise source.error(f"a state header of {child.size} bytes", child.start, child.tag)
             return source.data[child.start : child.end]
     raise source.error("a state without a header", state.start, state.tag)
 
 
-def _read_compressed(source: Source, position: int) -> Section:
+def _read_compressed(source: Source, position: int, keep: int) -> tuple[Section, bytes]:
     inflater = Inflater(source.data, position)
     try:
-        return _read_stream(replace(source, stream_offset=position), inflater, position)
+        return _read_stream(replace(source, stream_offset=position), inflater, position, keep)
     except zlib.error as error:
         raise source.error(f"damaged compressed data: {error}", position) from error
 
 
-def _read_stream(source: Source, inflater: Inflater, position: int) -> Section:
-    tag, size = PAIR[source.order].unpack(_read_exactly(source, inflater, HEADER_SIZE))
+def _read_stream(source: Source, inflater: Inflater, position: int, keep: int) -> tuple[Section, bytes]:
+    start = _read_exactly(source, inflater, HEADER_SIZE)
+    tag, size = PAIR[source.order].unpack(start)
     total = HEADER_SIZE + size
-    head = _stream_head(source, inflater, total) if tag == Tag.STATE else b""
+    content, head = b"", b""
+    if total <= keep:
+        content = start + inflater.read(size)
+    elif tag == Tag.STATE:
+        head = _stream_head(source, inflater, total)
     inflater.skip(total - inflater.inflated)
     surplus = inflater.read(1)  # also takes in the checksum at the stream's end
     if not inflater.ended and not surplus:
@@ -169,7 +202,9 @@ def _read_stream(source: Source, inflater: Inflater, position: int) -> Section:
     if surplus or inflater.inflated != total:
         found = "more" if surplus else str(inflater.inflated - HEADER_SIZE)
         raise source.error(f"a size of {size} bytes, but {found} are there", 0, tag)
-    return Section(tag, position, inflater.end - position, size, compressed=True, head=head)
+    if content and tag == Tag.STATE:
+        head = _state_head(replace(source, data=content), Chunk(tag, HEADER_SIZE, size))
+    return Section(tag, position, inflater.end - position, size, compressed=True, head=head), content
 
 
 def _stream_head(source: Source, inflater: Inflater, total: int) -> bytes:

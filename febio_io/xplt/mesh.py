@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from febio_io.xplt.elements import ElementType
+from febio_io.xplt.objects import ModelObject
 
 Integers = NDArray[np.int64]
 PADDING = -1
@@ -215,6 +216,8 @@ class Mesh:
         Reference positions, in the file's unit of length.
     domains, surfaces, edges, facet_sets, node_sets, element_sets, parts : tuple
         What else the mesh has, in the file's order.
+    objects : tuple of ModelObject
+        Rigid bodies, connectors and springs; only the first mesh of a file has them.
     """
 
     node_ids: Integers
@@ -226,6 +229,7 @@ class Mesh:
     node_sets: tuple[NodeSet, ...] = ()
     element_sets: tuple[ElementSet, ...] = ()
     parts: tuple[Part, ...] = ()
+    objects: tuple[ModelObject, ...] = ()
 
     @property
     def n_elements(self) -> int:

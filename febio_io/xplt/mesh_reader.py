@@ -21,6 +21,7 @@ from febio_io.xplt.mesh import (
     Region,
     Surface,
 )
+from febio_io.xplt.objects import read_objects
 from febio_io.xplt.tags import Tag
 
 VERSION_WITH_NODE_IDS = 0x33
@@ -88,7 +89,7 @@ def read_mesh(source: Source, mesh: Chunk, version: int) -> Mesh:
     Returns
     -------
     Mesh
-        The mesh; its objects section is passed over.
+        The mesh.
 
     Raises
     ------
@@ -106,6 +107,7 @@ def read_mesh(source: Source, mesh: Chunk, version: int) -> Mesh:
                     yield read(source, child, n_nodes)
 
     parts = tuple(read_list(Tag.PARTS_SECTION, Tag.PART, _read_part))
+    objects = sections.get(Tag.OBJECTS_SECTION)
     part_names = {part.part_id: part.name for part in parts}
     domains: list[Domain] = []
     if Tag.DOMAIN_SECTION in sections:
@@ -122,6 +124,7 @@ def read_mesh(source: Source, mesh: Chunk, version: int) -> Mesh:
         node_sets=tuple(read_list(Tag.NODESET_SECTION, Tag.NODESET, _read_node_set)),
         element_sets=tuple(read_list(Tag.ELEMENTSET_SECTION, Tag.ELEMENTSET, _read_element_set)),
         parts=parts,
+        objects=read_objects(source, objects) if objects else (),
     )
 
 

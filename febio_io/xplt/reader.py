@@ -1,6 +1,6 @@
 """Opens a plot file and answers what it holds."""
 
-from dataclasses import replace
+from collections.abc import Iterable
 from functools import lru_cache
 from os import PathLike
 from pathlib import Path
@@ -10,39 +10,44 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from febio_io.errors import FebioFileError, FebioFormatError, FebioKeyError
-from febio_io.xplt.container import Chunk, Source, children_by_tag, required
+from febio_io.errors import FebioFileError, FebioKeyError
+from febio_io.xplt.container import Chunk, Source
+from febio_io.xplt.contents import read_contents
 from febio_io.xplt.dictionary import SectionName, Variable
 from febio_io.xplt.fields import (
     StateData,
     Values,
     find_blocks,
     locate_variables,
-    read_block,
+    read_active_elements,
     regions_of,
+    view_block,
 )
-from febio_io.xplt.index import Section, open_section, read_index
+from febio_io.xplt.index import open_section
 from febio_io.xplt.lookup import find_region, find_state, find_variables
 from febio_io.xplt.mesh import Mesh
 from febio_io.xplt.mesh_reader import read_mesh
-from febio_io.xplt.root import OLDEST_VERSION, map_file, read_root
-from febio_io.xplt.tags import Tag
+from febio_io.xplt.objects import ObjectState, read_object_states
+from febio_io.xplt.root import map_file, read_root
 
-KNOWN_VERSIONS = (OLDEST_VERSION, *range(0x30, 0x36))
 STATES_KEPT = 4
+KEEP_INFLATED = 512 << 20
 
 
-def open_plot(path: str | PathLike[str]) -> "Plot":
+def open_plot(path: str | PathLike[str], *, keep_inflated: int = KEEP_INFLATED) -> "Plot":
     """Open an FEBio plot file (.xplt).
 
     Only headers are read: the file is mapped into memory, and values are read when they are asked for.
-    Compressed states are inflated once to find where each ends. A file that FEBio is still writing may be
-    opened: the states complete by then are used. It must not be shortened or overwritten while it is open.
+    Compressed states must be inflated once to find where each ends; the first of them are kept in memory,
+    so that they need not be inflated again. A file that FEBio is still writing may be opened: the states
+    complete by then are used. It must not be shortened or overwritten while it is open.
 
     Parameters
     ----------
     path : path-like
         The file.
+    keep_inflated : int, optional
+        Bytes of inflated states that may be kept while the file is open: half a gibibyte, unless given.
 
     Returns
     -------
@@ -56,7 +61,7 @@ def open_plot(path: str | PathLike[str]) -> "Plot":
     FebioFormatError
         If its contents contradict the format.
     """
-    return Plot(map_file(Path(path)))
+    return Plot(map_file(Path(path)), keep_inflated)
 
 
 class Plot:
@@ -66,6 +71,8 @@ class Plot:
     ----------
     source : Source
         The mapped file.
+    keep_inflated : int
+        Bytes of inflated states that may be kept while the file is open.
 
     Attributes
     ----------
@@ -90,53 +97,19 @@ class Plot:
         The variables, section by section.
     """
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, keep_inflated: int = KEEP_INFLATED) -> None:
         self._source: Source | None = source
         self.path = source.path
         root = read_root(source)
         self.version, self.software, self.units = root.version, root.software, root.units
         self.variables = root.variables
-        self._read_sections(source, root.end)
+        contents = read_contents(source, root, keep_inflated)
+        self._meshes, self._states = contents.meshes, contents.states
+        self._mesh_numbers, self._inflated = contents.mesh_numbers, contents.inflated
+        self.times, self.status, self.warnings = contents.times, contents.status, contents.warnings
+        self.compressed = any(section.compressed for section in (*contents.meshes, *contents.states))
         self._open_state = lru_cache(STATES_KEPT)(self._locate_state)
         self._open_mesh = lru_cache(None)(self._read_mesh)
-
-    def _read_sections(self, source: Source, start: int) -> None:
-        index = read_index(source, start)
-        self.compressed = any(section.compressed for section in index.sections)
-        self._meshes = [section for section in index.sections if section.tag == Tag.MESH]
-        self._states = [section for section in index.sections if section.tag == Tag.STATE]
-        if not index.sections or index.sections[0].tag != Tag.MESH:
-            cut = "the file is cut off in its mesh" if index.cut_at is not None else "the file has no mesh"
-            raise source.error("a state before the first mesh" if self._states else cut, start)
-        meshes_seen = np.cumsum([section.tag == Tag.MESH for section in index.sections])
-        self._mesh_numbers = [
-            int(seen) - 1
-            for seen, section in zip(meshes_seen, index.sections, strict=True)
-            if section.tag == Tag.STATE
-        ]
-        heads = [_read_head(source, section) for section in self._states]
-        self.times: NDArray[np.float64] = np.array([time for time, _ in heads], dtype=np.float64)
-        self.status: NDArray[np.int64] = np.array([status for _, status in heads], dtype=np.int64)
-        self.warnings = tuple(self._oddities(index.cut_at is not None, index.skipped))
-
-    def _oddities(self, cut_off: bool, skipped: tuple[int, ...]) -> list[str]:
-        name, count = self.path.name, len(self._states)
-        found = []
-        if self.version not in KNOWN_VERSIONS:
-            found.append(
-                f"{name} has version {self.version:#04x}; "
-                f"{KNOWN_VERSIONS[0]:#04x} and {KNOWN_VERSIONS[1]:#04x} to {KNOWN_VERSIONS[-1]:#04x} "
-                "are known, and it is read as they are"
-            )
-        if skipped:
-            tags = ", ".join(f"{tag:#010x}" for tag in skipped)
-            found.append(f"{name} has chunks of an unknown kind, which are passed over: {tags}")
-        if cut_off and not count:
-            found.append(f"{name} is cut off in its first state: it has no complete state")
-        elif cut_off:
-            used = "1 complete state is used" if count == 1 else f"{count} complete states are used"
-            found.append(f"{name} is cut off after state {count}: {used}")
-        return found
 
     def __enter__(self) -> Self:
         return self
@@ -148,7 +121,7 @@ class Plot:
 
     def close(self) -> None:
         """Let go of the file; arrays already read stay valid."""
-        self._source = None
+        self._source, self._inflated = None, {}
         self._open_state.cache_clear()
 
     @property
@@ -185,6 +158,7 @@ class Plot:
         region: str | int | None = None,
         *,
         section: SectionName | None = None,
+        copy: bool = True,
     ) -> Values:
         """Read the values of one variable in one state and region.
 
@@ -200,11 +174,15 @@ class Plot:
             only one region has values.
         section : str, optional
             Section of the variable, where variables of several sections have the name.
+        copy : bool, optional
+            False for a read-only view of the file's own bytes, which costs nothing. It keeps the mapped file,
+            or the inflated state, in memory for as long as it lives. Values of the other byte order are
+            copied all the same.
 
         Returns
         -------
         float32 array
-            A copy of the stored values, with a last axis of components unless the variable is a scalar.
+            The stored values, with a last axis of components unless the variable is a scalar.
             Before it, node variables have the axis (n_nodes,), global variables none, others by storage:
             "node" (n_nodes of the region,) in the order of the region's `nodes`; "item" (n_items,), which
             are elements, faces or lines; "mult" (n_items, nodes_per_item); "region" none.
@@ -216,6 +194,88 @@ class Plot:
         FebioFormatError
             If the values' size is not what the variable and the mesh require.
         """
+        values = self._view(name, state, region, section)
+        return values.copy() if copy else values
+
+    def series(
+        self,
+        name: str | Variable,
+        states: Iterable[int] | None = None,
+        region: str | int | None = None,
+        *,
+        section: SectionName | None = None,
+    ) -> Values:
+        """Read the values of one variable in one region over several states.
+
+        Parameters
+        ----------
+        states : iterable of int, optional
+            Numbers of the states; all, unless given.
+        name, region, section
+            As in :meth:`field`.
+
+        Returns
+        -------
+        float32 array
+            The values of :meth:`field`, with a first axis of states.
+
+        Raises
+        ------
+        FebioKeyError
+            If there is no such variable, state or region, or more than one; or if the states have different
+            meshes, so that the shapes differ.
+        FebioFormatError
+            If the values' size is not what the variable and the mesh require.
+        """
+        numbers = range(self.n_states) if states is None else list(states)
+        if not numbers:
+            raise FebioKeyError(f"{self.path}: no states to read {name!r} in")
+        first = self._view(name, numbers[0], region, section)
+        series = np.empty((len(numbers), *first.shape), dtype=np.float32)
+        for place, number in enumerate(numbers):
+            values = self._view(name, number, region, section)
+            if values.shape != first.shape:
+                raise FebioKeyError(
+                    f"{self.path}: states {numbers[0]} and {number} have different meshes; "
+                    "read them one by one"
+                )
+            series[place] = values
+        return series
+
+    def active_elements(self, state: int) -> NDArray[np.bool_]:
+        """Tell which elements take part in a state.
+
+        Returns
+        -------
+        (n_elements,) bool array
+            False for eroded elements; domain by domain, in the order of each domain's elements.
+
+        Raises
+        ------
+        FebioKeyError
+            If there is no such state.
+        FebioFormatError
+            If the state does not tell of as many elements as the mesh has.
+        """
+        number = find_state(self.path, self.n_states, state)
+        return read_active_elements(self._open_state(number), self.mesh_of(number))
+
+    def objects(self, state: int) -> tuple[ObjectState, ...]:
+        """Give the rigid bodies, connectors and springs in a state; none where the state does not tell.
+
+        Raises
+        ------
+        FebioKeyError
+            If there is no such state.
+        FebioFormatError
+            If the objects contradict those of the first mesh.
+        """
+        data = self._open_state(find_state(self.path, self.n_states, state))
+        return read_object_states(data.source, data.objects, self.mesh.objects) if data.objects else ()
+
+    def _view(
+        self, name: str | Variable, state: int, region: str | int | None, section: SectionName | None
+    ) -> Values:
         data, mesh, blocks = self._blocks(name, state, section)
         label = f"variable {blocks[0][0].name!r} in state {data.number}"
         regions = regions_of(blocks[0][0], mesh)
@@ -229,7 +289,7 @@ class Plot:
                 f"{label}; give one of Plot.variables instead of the name"
             )
         variable, block = owners[0]
-        return read_block(data, variable, mesh, block)
+        return view_block(data, variable, mesh, block)
 
     def regions(
         self, name: str | Variable, state: int, *, section: SectionName | None = None
@@ -257,29 +317,14 @@ class Plot:
         return data, mesh, [(variable, find_blocks(data, variable, mesh)) for variable in variables]
 
     def _locate_state(self, number: int) -> StateData:
-        source, chunk = open_section(self._opened(), self._states[number])
+        source, chunk = open_section(self._opened(), self._states[number], self._inflated)
         return locate_variables(source, chunk, number)
 
     def _read_mesh(self, number: int) -> Mesh:
-        source, chunk = open_section(self._opened(), self._meshes[number])
+        source, chunk = open_section(self._opened(), self._meshes[number], self._inflated)
         return read_mesh(source, chunk, self.version)
 
     def _opened(self) -> Source:
         if self._source is None:
             raise FebioFileError(f"{self.path}: the plot file has been closed")
         return self._source
-
-
-def _read_head(source: Source, section: Section) -> tuple[float, int]:
-    head = replace(source, data=section.head)
-    whole = Chunk(Tag.STATE_HEADER, 0, len(section.head))
-    try:
-        found = children_by_tag(head, whole)
-        time = head.real(required(head, whole, found, Tag.STATE_TIME))
-        status = head.integer(found[Tag.STATE_STATUS]) if Tag.STATE_STATUS in found else 0
-    except FebioFormatError as error:
-        # The offset within the header alone would mislead; that of the state does not.
-        raise source.error(
-            "the state's header lacks its time or is damaged", section.offset, Tag.STATE
-        ) from error
-    return time, status

@@ -42,9 +42,33 @@ def test_every_file_is_read_whole(corpus, name):
         assert [domain.element_type.name for domain in plot.mesh.domains] == element_types
         blocks = 0
         for state in range(n_states):
+            assert plot.active_elements(state).shape == (plot.mesh.n_elements,)
+            for item in plot.objects(state):
+                assert set(item.values) == {variable.name for variable in item.model_object.variables}
+                blocks += len(item.values)
             for variable in plot.variables:
                 for region in plot.regions(variable, state):
                     values = plot.field(variable, state, region)
                     assert np.isfinite(values).all()
                     blocks += 1
         assert blocks >= n_states
+
+
+def test_rigid_bodies_are_where_their_domains_are(corpus):
+    with open_plot(corpus / "rj08.xplt") as plot:
+        assert [(item.kind, item.name) for item in plot.mesh.objects] == [
+            ("point", "Ground"),
+            ("point", "Slider"),
+            ("point", "RigidPrismaticJoint01"),
+            ("line", "RigidSpring01"),
+        ]
+        slider = plot.objects(-1)[1]
+        np.testing.assert_allclose(slider.position, slider.values["Position"])
+        (domain,) = (domain for domain in plot.mesh.domains if domain.part_name == "Slider")
+        corners = (plot.mesh.coordinates + plot.field("displacement", -1))[domain.nodes]
+        np.testing.assert_allclose(corners.mean(axis=0), slider.position, atol=1e-6)
+
+
+def test_rigid_bodies_without_states_of_their_own(corpus):
+    with open_plot(corpus / "di05.xplt") as plot:
+        assert len(plot.mesh.objects) == 2

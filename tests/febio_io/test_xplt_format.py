@@ -272,9 +272,9 @@ def test_old_layouts_are_refused_by_name(write, version):
 def test_unknown_chunks_are_passed_over(write):
     writer = Writer()
     strange = writer.chunk(0x0109F000, b"anything")
-    objects = writer.chunk(0x01050000, b"\xff" * 40)
+    later = writer.chunk(0x01060000, b"\xff" * 40)
     content = writer.file(
-        writer.root(ITEMS), writer.mesh(MESH, strange, objects), strange, writer.state(0, state_values(0))
+        writer.root(ITEMS), writer.mesh(MESH, strange, later), strange, writer.state(0, state_values(0))
     )
     with open_plot(write(content)) as plot:
         assert len(plot.mesh.domains) == 3
