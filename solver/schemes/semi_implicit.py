@@ -93,7 +93,7 @@ def workspace(n_x: int, n_phi: int) -> Workspace:
     return Workspace(*(np.zeros(shape) for shape in shapes))
 
 
-@njit(cache=True, error_model="numpy", fastmath={"reassoc"})
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc"})
 def _mean(values: Array) -> float:
     total = 0.0
     for j in range(values.size):
@@ -101,7 +101,7 @@ def _mean(values: Array) -> float:
     return total / values.size
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _all_admissible(velocity: Array, axis_velocity: float) -> bool:
     """Whether 0 < u/D < 1 in every row, so that γ = 2u/(D − u) is positive."""
     d = abs(axis_velocity)
@@ -113,7 +113,7 @@ def _all_admissible(velocity: Array, axis_velocity: float) -> bool:
     return count == velocity.size
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _at_rest(velocity: Array) -> bool:
     """Whether every row is slower than the rest velocity."""
     count = 0
@@ -122,14 +122,14 @@ def _at_rest(velocity: Array) -> bool:
     return count == velocity.size
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _wrap(row: Array) -> None:
     """Fill the two ghosts of a periodic row."""
     row[0] = row[row.size - 2]
     row[row.size - 1] = row[1]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _face_area(f: int, mean: Array, outlet_area: Array, area: Array) -> None:
     """Mean area of face f with ghosts: the inlet's extrapolated, the outlet's from its pressure."""
     n_x, n_phi = mean.shape
@@ -147,7 +147,7 @@ def _face_area(f: int, mean: Array, outlet_area: Array, area: Array) -> None:
     _wrap(area)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _face_velocity(
     old: Array, new: Array, theta: float, area: Array, inverse_area: Array, velocity: Array
 ) -> None:
@@ -158,7 +158,7 @@ def _face_velocity(
         velocity[j] = ((1.0 - theta) * old[j] + theta * new[j]) * inverse_area[j]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _profile_source(
     alpha: Array,
     source: Array,
@@ -196,7 +196,7 @@ def _profile_source(
         source[j] = nu * inverse_area[j] * ((2.0 + 4.0 * g_here[j]) * bracket - 4.0 * half_gamma_plus_one)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _rest_source(alpha: Array, source: Array, inverse_area: Array, nu: float) -> None:
     """α and S of a face at rest: γ = 2, friction only."""
     for j in range(alpha.size):
@@ -204,7 +204,7 @@ def _rest_source(alpha: Array, source: Array, inverse_area: Array, nu: float) ->
         source[j] = -8.0 * nu * inverse_area[j]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _inadmissible_row(velocity: Array, axis_velocity: float) -> int:
     """First row with |u| ≥ |D| or u against D."""
     for j in range(velocity.size):
@@ -213,7 +213,7 @@ def _inadmissible_row(velocity: Array, axis_velocity: float) -> int:
     return 0
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _coefficients(p: Parameters, ws: Workspace, flow: Array, theta: float) -> tuple[int, int, int]:
     """α and S on every face at the θ-weighted mean; the failure (status, i, j) if there is one."""
     n_x = ws.mean_area.shape[0]
@@ -235,7 +235,7 @@ def _coefficients(p: Parameters, ws: Workspace, flow: Array, theta: float) -> tu
     return OK, 0, 0
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _wall(
     p: Parameters, ws: Workspace, area: Array, outlet_area: Array, theta: float
 ) -> tuple[int, int, int]:
@@ -259,7 +259,7 @@ def _wall(
     return OK, 0, 0
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _momentum_flux(ws: Workspace, flow: Array, theta: float) -> None:
     """αQ²/A at cell centres from the two faces."""
     n_x, n_phi = ws.mean_area.shape
@@ -273,7 +273,7 @@ def _momentum_flux(ws: Workspace, flow: Array, theta: float) -> None:
             flux[j] = 0.5 * (alpha_left[j] + alpha_right[j]) * q * q / area[j]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _predict(p: Parameters, s: Stepping, ws: Workspace, flow: Array) -> None:
     """Flow G that each inner face would have at the iterate's pressure, and its conductance κ."""
     n_x, n_phi = ws.mean_area.shape
@@ -298,7 +298,7 @@ def _predict(p: Parameters, s: Stepping, ws: Workspace, flow: Array) -> None:
             conductance[j] = theta * drive * inverse
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _predict_ends(p: Parameters, s: Stepping, ws: Workspace, flow: Array, inlet_velocity: float) -> None:
     """Q' = vA' at the inlet; half a cell of momentum at the outlet."""
     n_x, n_phi = ws.mean_area.shape
@@ -322,7 +322,7 @@ def _predict_ends(p: Parameters, s: Stepping, ws: Workspace, flow: Array, inlet_
         ws.conductance[n_x, j] = theta * drive * inverse
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _mass_residual(p: Parameters, s: Stepping, ws: Workspace, area: Array, flow: Array) -> None:
     """Mass balance at the iterate, into ``correction``; its own derivative, into ``diagonal``."""
     n_x, n_phi = area.shape
@@ -340,7 +340,7 @@ def _mass_residual(p: Parameters, s: Stepping, ws: Workspace, area: Array, flow:
             pivot[j] = slope[j] + c * (left[j] + right[j])
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _eliminate(p: Parameters, s: Stepping, ws: Workspace, inlet_velocity: float) -> None:
     """Forward elimination of the linearised mass balance; leaves pivots and right-hand sides.
 
@@ -366,7 +366,7 @@ def _eliminate(p: Parameters, s: Stepping, ws: Workspace, inlet_velocity: float)
             rhs[j] += factor * rhs_above[j]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _outlet_correction(p: Parameters, s: Stepping, ws: Workspace) -> None:
     """Solve the outlet law for P_out' − P_out and close the last cell of every row.
 
@@ -395,7 +395,7 @@ def _outlet_correction(p: Parameters, s: Stepping, ws: Workspace) -> None:
             _close_last_cell(ws, j, c, change)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _close_last_cell(ws: Workspace, j: int, c: float, outlet_change: float) -> None:
     n_x = ws.mean_area.shape[0]
     last = n_x - 1
@@ -406,7 +406,7 @@ def _close_last_cell(ws: Workspace, j: int, c: float, outlet_change: float) -> N
     ws.explicit_flow[n_x, j] -= k * (outlet_change - closed)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _substitute(p: Parameters, s: Stepping, ws: Workspace, inlet_velocity: float) -> None:
     """Back substitution: P' − P of the iterate in every cell."""
     n_x, n_phi = ws.mean_area.shape
@@ -421,7 +421,7 @@ def _substitute(p: Parameters, s: Stepping, ws: Workspace, inlet_velocity: float
         ws.correction[0, j] = (ws.correction[0, j] + coupling * ws.correction[1, j]) / ws.diagonal[0, j]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _correct(ws: Workspace, inlet_velocity: float) -> None:
     """P' in every cell and Q' on every face but the outlet, which is already closed."""
     n_x, n_phi = ws.mean_area.shape
@@ -440,7 +440,7 @@ def _correct(ws: Workspace, inlet_velocity: float) -> None:
             pressure[j] += correction[j]
 
 
-@njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 def _rms(values: Array) -> float:
     """Root of the mean square of a 2-D array."""
     total = 0.0
@@ -450,7 +450,7 @@ def _rms(values: Array) -> float:
     return float(np.sqrt(total / values.size))
 
 
-@njit(cache=True, error_model="numpy", fastmath={"reassoc", "contract"})
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 def _rms_change(new: Array, old: Array) -> float:
     """Root of the mean square of new − old, 2-D arrays."""
     total = 0.0
@@ -462,7 +462,7 @@ def _rms_change(new: Array, old: Array) -> float:
     return float(np.sqrt(total / new.size))
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def pressure_of_area(area: Array, p: Parameters, pressure: Array) -> None:
     """P = P₀ + (√A − R₀)/(R₀²/β) at every cell, into ``pressure``, Pa."""
     n_x, n_phi = area.shape
@@ -472,7 +472,7 @@ def pressure_of_area(area: Array, p: Parameters, pressure: Array) -> None:
             pressure[i, j] = p.reference_pressure + strain / p.compliance[i, j]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def outlet_pressure_of_flow(flow: Array, p: Parameters, pressure: Array) -> None:
     """P = P_res + R_res × flow at the outlet, per row, into ``pressure`` (n_phi,), Pa."""
     n_phi = pressure.size
@@ -483,7 +483,7 @@ def outlet_pressure_of_flow(flow: Array, p: Parameters, pressure: Array) -> None
         pressure[j] = p.offset + p.resistance * q
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _start_iterate(
     p: Parameters, ws: Workspace, area: Array, flow: Array, outlet_area: Array, extrapolate: bool
 ) -> None:
@@ -508,7 +508,7 @@ def _start_iterate(
         outlet_area[j] = radius * radius
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def step(
     p: Parameters,
     s: Stepping,
@@ -570,7 +570,7 @@ def step(
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _balance_mass(
     p: Parameters, s: Stepping, area: Array, flow: Array, new_flow: Array, exchanged: Array
 ) -> None:
@@ -589,7 +589,7 @@ def _balance_mass(
     flow[:, :] = new_flow
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy")
 def advance(
     p: Parameters, s: Stepping, ws: Workspace, area: Array, flow: Array, inlet_velocities: Array
 ) -> tuple[int, int, int, int, int]:

@@ -1,0 +1,204 @@
+"""``python -m validation.compare CASE.yaml``: run the reduced model, read the reference, score, report."""
+
+import argparse
+import shlex
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from cases.case_file import CaseFile, load_case_file
+from cases.errors import CaseError
+from cases.schema import Case
+from febio_io.errors import FebioError
+from reports import ReportError, write_reports
+from solver.errors import SolverError
+from solver.files import write_netcdf
+from solver.from_case import inlet_waveform
+from validation import metrics
+from validation.bands import FAIL, MISSING, OK, band_rows
+from validation.comparison import VariantRun, check_variants, combine
+from validation.errors import ValidationError
+from validation.metrics import Row, models_of
+from validation.output import check_target, result_directory, write_json, write_metrics
+from validation.provenance import provenance
+from validation.run import Watch, run_variants, watching
+
+EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
+COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def variant_rows(comparison: xr.Dataset, name: str, run: VariantRun) -> list[Row]:
+    """All rows of one variant, its bands' among them."""
+    models = models_of(comparison, name)
+    cells = (comparison.attrs["compare_i"], comparison.attrs["compare_j"])
+    offset = run.reference.alignment.cycle_times
+    prescribed = inlet_waveform(run.case)(offset) * run.reference.checks["inlet_area"].to_numpy()
+    return [
+        *band_rows(models, run.case),
+        *metrics.pooled_rows(models),
+        *metrics.cycle_rows(models),
+        *metrics.check_rows(models),
+        *metrics.value_rows(models, cells, comparison.attrs["compare_times_s"]),
+        *metrics.cycle_error_rows(models, cells),
+        *metrics.dominance_rows(models, cells),
+        *metrics.flow_check_rows(models, run.reference.checks, prescribed),
+    ]
+
+
+def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
+    """Say what a reader must know, each thing once."""
+    notes = [note for run in runs.values() for note in run.reference.notes]
+    for name, run in runs.items():
+        later = run.reference.alignment.cycles_later
+        covered = run.reference.alignment.coverage / run.case.inlet.period
+        notes.append(
+            f"{name}: instants are matched within the cycle; the reduced model's time runs {later} whole "
+            f"cycles ahead of the reference's, whose states cover {covered:.1%} of its last cycle"
+        )
+        notes.append(
+            f"{name}: pressure and flow rate of the reduced model change by at most "
+            f"{run.rom.cycle_change:.1e} (relative) from the start to the end of the last cycle"
+        )
+    viscosities = sorted({run.case.blood.viscosity for run in runs.values()})
+    stated = ", ".join(f"{value:g}" for value in viscosities)
+    notes.append(
+        f"viscosity of the reduced model: {stated} Pa s; the plot file does not state the reference's"
+    )
+    return list(dict.fromkeys(notes))
+
+
+def described(
+    file: CaseFile, runs: Mapping[str, VariantRun], watch: Watch, command: list[str]
+) -> dict[str, Any]:
+    """Provenance of a finished comparison."""
+    inputs = [path for case in file.variants.values() for path in input_files(case)]
+    bands = [band for case in file.variants.values() for band in case.compare.bands]
+    return provenance(file.path, inputs, command) | {
+        "wall_times_s": watch.wall_times,
+        "notes": notes_of(runs),
+        "variants": {
+            name: {"rom": run.rom.description, "reference": run.reference.description}
+            for name, run in runs.items()
+        },
+        "bands": [
+            {
+                "quantity": band.quantity,
+                "statistic": band.statistic,
+                "limit": band.limit,
+                "reason": band.reason,
+                "variants": None if band.variants is None else list(band.variants),
+            }
+            for band in dict.fromkeys(bands)
+        ],
+    }
+
+
+def input_files(case: Case) -> list[Path]:
+    """Files that a case names."""
+    files = []
+    if case.reference is not None:
+        files.append(case.reference.plot_file)
+    if case.inlet.waveform is not None and case.inlet.waveform.path is not None:
+        files.append(case.inlet.waveform.path)
+    return files
+
+
+def compare_case(file: CaseFile, target: Path, command: list[str]) -> list[Row]:
+    """Run one case file and leave its result in ``target``; see ``harness`` for what that holds.
+
+    Returns
+    -------
+    list of Row
+        The rows of the declared bands.
+
+    Raises
+    ------
+    CaseError, SolverError, FebioError, ValidationError, ReportError
+        For input that is wrong; ``target`` is then as it was.
+    """
+    check_variants(file.variants)
+    with watching() as watch, result_directory(target) as directory:
+        runs = run_variants(file.variants, watch)
+        with watch.step("metrics"):
+            comparison = combine(file, runs)
+            rows = [row for name, run in runs.items() for row in variant_rows(comparison, name, run)]
+            rows += metrics.change_rows(rows, comparison.attrs["baseline"])
+            write_metrics(directory, metrics.to_frame(rows))
+        with watch.step("comparison.nc"):
+            write_netcdf(comparison, directory / "comparison.nc")
+        write_json(directory / "provenance.json", described(file, runs, watch, command))
+        with watch.step("reports"):
+            write_reports(directory)
+    return [row for row in rows if row.status]
+
+
+def summary(file: CaseFile, target: Path, bands: list[Row]) -> str:
+    """One line for people."""
+    counts = {status: sum(row.status == status for row in bands) for status in (OK, FAIL, MISSING)}
+    verdict = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "none declared"
+    return f"{file.name}: bands: {verdict}; report: {target / 'report.html'}, {target / 'report.pdf'}"
+
+
+def _arguments(argv: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="python -m validation.compare",
+        description="Compare the 2D reduced-order model with a 3D reference and write a report.",
+        epilog="Exit status: 0 complete; 1 a band fails or is missing (with --check); 2 wrong input.",
+    )
+    parser.add_argument("cases", nargs="+", type=Path, metavar="CASE.yaml", help="case files")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="result directory (default: results/NAME; with several cases: DIR/NAME)",
+    )
+    parser.add_argument("--check", action="store_true", help="exit 1 unless every band holds")
+    return parser.parse_args(argv)
+
+
+def targets(files: list[CaseFile], output: Path | None) -> list[Path]:
+    """Choose the result directory of each case.
+
+    Raises
+    ------
+    ValidationError
+        If two cases have one name, or a target must not be replaced.
+    """
+    names = [file.name for file in files]
+    if len(set(names)) < len(names):
+        raise ValidationError(f"case names must differ, found: {', '.join(names)}")
+    if output is not None and len(files) == 1:
+        found = [output]
+    else:
+        found = [(output or Path("results")) / name for name in names]
+    for target in found:
+        check_target(target)
+    return found
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command; return its exit status."""
+    argv = sys.argv[1:] if argv is None else argv
+    arguments = _arguments(argv)
+    command = ["python", "-m", "validation.compare", *map(shlex.quote, argv)]
+    broken = False
+    try:
+        files = [load_case_file(path) for path in arguments.cases]
+        for file, target in zip(files, targets(files, arguments.output), strict=True):
+            bands = compare_case(file, target, command)
+            broken |= any(row.status in (FAIL, MISSING) for row in bands)
+            print(summary(file, target, bands))
+    except EXPECTED as error:
+        print(error, file=sys.stderr)
+        return WRONG_INPUT
+    except KeyboardInterrupt:
+        print("interrupted; no result was written", file=sys.stderr)
+        return INTERRUPTED
+    return BAND_BROKEN if broken and arguments.check else COMPLETE
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,244 @@
+"""Every figure of a comparison as one row of data."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from numpy.typing import NDArray
+
+from cases.fields import FIELDS
+from validation.cycle_quantities import CYCLE_QUANTITIES, phase_lag
+from validation.statistics import DIFFERENCES, EXTREMES, POOLED, extreme_error, relative_error
+
+COLUMNS = [
+    *("case", "variant", "quantity", "statistic", "i", "j", "t_s"),
+    *("rom", "reference", "error", "unit", "band", "status"),
+]
+CELL_QUANTITIES = ("pressure", "radius", "mean_velocity", "sector_flow_rate", "profile_exponent")
+SECTION_QUANTITIES = ("section_flow_rate", "section_pressure")
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure; i and j count from 1, t_s from the cycle's start, values in ``unit``."""
+
+    case: str
+    variant: str
+    quantity: str
+    statistic: str
+    i: int | None = None
+    j: int | None = None
+    t_s: float | None = None
+    rom: float | None = None
+    reference: float | None = None
+    error: float | None = None
+    unit: str = ""
+    band: float | None = None
+    status: str = ""
+
+
+@dataclass(frozen=True)
+class Models:
+    """Both models of one variant, fields under their own names."""
+
+    case: str
+    variant: str
+    rom: xr.Dataset
+    reference: xr.Dataset
+    period: float
+
+    def pair(self, quantity: str) -> tuple[Floats, Floats]:
+        """Values of a quantity in both models, float64."""
+        rom, reference = self.rom[quantity], self.reference[quantity]
+        return rom.to_numpy().astype(float), reference.to_numpy().astype(float)
+
+    def row(self, quantity: str, statistic: str, **values: Any) -> Row:
+        """Row of this variant."""
+        return Row(self.case, self.variant, quantity, statistic, unit=FIELDS[quantity].unit, **values)
+
+
+def models_of(comparison: xr.Dataset, variant: str) -> Models:
+    """Split one variant of a comparison into its two models."""
+    chosen = comparison.sel(variant=variant)
+    parts = {}
+    for model in ("rom", "reference"):
+        prefix = f"{model}_"
+        names = {str(n): str(n).removeprefix(prefix) for n in chosen.data_vars if str(n).startswith(prefix)}
+        parts[model] = chosen[list(names)].rename(names)
+    return Models(
+        comparison.attrs["case"], variant, parts["rom"], parts["reference"], comparison.attrs["period_s"]
+    )
+
+
+def _single(rom: float, reference: float) -> float | None:
+    error = relative_error(np.atleast_1d(rom), np.atleast_1d(reference))
+    return None if error is None else float(error[0])
+
+
+def value_rows(models: Models, cells: tuple[Floats, Floats], times: Floats) -> Iterator[Row]:
+    """Values of both models at the chosen cells and instants."""
+    states = [int(np.argmin(np.abs(models.rom["time"].to_numpy() - t))) for t in times]
+    for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
+        rom, reference = models.pair(quantity)
+        rows_j = [None] if quantity in SECTION_QUANTITIES else list(cells[1])
+        for i in cells[0]:
+            for j in rows_j:
+                for t, n in zip(times, states, strict=True):
+                    at = (n, i - 1) if j is None else (n, i - 1, j - 1)
+                    yield models.row(
+                        quantity,
+                        "value",
+                        i=int(i),
+                        j=None if j is None else int(j),
+                        t_s=float(t),
+                        rom=float(rom[at]),
+                        reference=float(reference[at]),
+                        error=_single(rom[at], reference[at]),
+                    )
+
+
+def cycle_error_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row]:
+    """Errors over the cycle at each chosen cell."""
+    for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
+        rom, reference = models.pair(quantity)
+        rows_j = [None] if quantity in SECTION_QUANTITIES else list(cells[1])
+        for i in cells[0]:
+            for j in rows_j:
+                at = np.s_[:, i - 1] if j is None else np.s_[:, i - 1, j - 1]
+                where = {"i": int(i), "j": None if j is None else int(j)}
+                for statistic in ("rms_error", "max_error", *EXTREMES):
+                    error = pooled(statistic, rom[at], reference[at])
+                    yield models.row(quantity, statistic, error=error, **where)
+
+
+def pooled(statistic: str, rom: Floats, reference: Floats) -> float | None:
+    """Value of a statistic over all entries; None where it has no meaning."""
+    if statistic in EXTREMES:
+        return extreme_error(statistic, rom, reference)
+    if statistic in DIFFERENCES:
+        difference = rom - reference
+        return DIFFERENCES[statistic](difference) if np.all(np.isfinite(difference)) else None
+    error = relative_error(rom, reference)
+    return None if error is None else POOLED[statistic](error)
+
+
+def pooled_rows(models: Models) -> Iterator[Row]:
+    """Statistics over all cells and states; for the largest error, where and when it is."""
+    for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
+        rom, reference = models.pair(quantity)
+        for statistic in (*POOLED, *EXTREMES, *DIFFERENCES):
+            row = models.row(quantity, statistic, error=pooled(statistic, rom, reference))
+            yield _with_place(row, models, rom, reference) if statistic.startswith("max_") else row
+
+
+def _with_place(row: Row, models: Models, rom: Floats, reference: Floats) -> Row:
+    """Add cell, instant and values of the largest error."""
+    error = rom - reference if row.statistic == "max_difference" else relative_error(rom, reference)
+    if row.error is None or error is None:
+        return row
+    at = np.unravel_index(int(np.argmax(np.abs(error))), error.shape)
+    return replace(
+        row,
+        i=int(at[1]) + 1,
+        j=int(at[2]) + 1 if len(at) > 2 else None,
+        t_s=float(models.rom["time"].to_numpy()[at[0]]),
+        rom=float(rom[at]),
+        reference=float(reference[at]),
+    )
+
+
+def cycle_rows(models: Models) -> Iterator[Row]:
+    """One number per cycle."""
+    for quantity, measure in CYCLE_QUANTITIES.items():
+        rom, reference = measure(models.rom), measure(models.reference)
+        yield models.row(quantity, "cycle", rom=rom, reference=reference, error=_single(rom, reference))
+    yield models.row("phase_lag", "cycle", rom=phase_lag(models.rom, models.reference, models.period))
+
+
+def check_rows(models: Models) -> Iterator[Row]:
+    """Tell whether the reduced model's assumptions, and both simulations, hold."""
+    for quantity in ("mass_defect", "axis_velocity_spread"):
+        rom, reference = models.pair(quantity)
+        yield models.row(
+            quantity, "largest", rom=float(np.max(np.abs(rom))), reference=float(np.max(np.abs(reference)))
+        )
+    for quantity in ("backflow_fraction", "axial_dominance_radial", "axial_dominance_azimuthal"):
+        values = models.reference[quantity].to_numpy()
+        place = np.unravel_index(int(np.argmax(values)), values.shape)
+        cell = {"i": int(place[0]) + 1, "j": int(place[1]) + 1} if values.ndim == 2 else {}
+        yield models.row(quantity, "largest", reference=float(values.max()), **cell)
+
+
+def dominance_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row]:
+    """Axial dominance at the chosen cells (tables 3.10 and 3.11)."""
+    for quantity in ("axial_dominance_radial", "axial_dominance_azimuthal"):
+        values = models.reference[quantity].to_numpy()
+        for i in cells[0]:
+            for j in cells[1]:
+                ratio = float(values[i - 1, j - 1])
+                yield models.row(quantity, "value", i=int(i), j=int(j), reference=ratio)
+
+
+def flow_check_rows(models: Models, checks: xr.Dataset, prescribed: Floats) -> Iterator[Row]:
+    """3D flow rates against independent ones: planes cut by VTK, and the prescribed inflow.
+
+    ``rom`` is empty; ``reference`` is the ray quadrature (plane_integral) or the surface integral over the
+    inlet (prescribed_inflow), ``error`` its deviation relative to the independent value.
+    """
+    by_rays = models.reference["section_flow_rate"]
+    times, stations = models.reference["time"].to_numpy(), models.reference["x"].to_numpy()
+    for t, at_time in zip(checks["check_time"].to_numpy(), checks["plane_flow_rate"].to_numpy(), strict=True):
+        for x, plane in zip(checks["check_x"].to_numpy(), at_time, strict=True):
+            n, i = int(np.argmin(np.abs(times - t))), int(np.argmin(np.abs(stations - x)))
+            q = float(by_rays[n, i])
+            yield models.row(
+                "section_flow_rate",
+                "plane_integral",
+                i=i + 1,
+                t_s=float(t),
+                reference=q,
+                error=_single(q, plane),
+            )
+    inflow = checks["inlet_flow_rate"].to_numpy()
+    error = relative_error(inflow, prescribed)
+    for n, t in enumerate(times):
+        yield models.row(
+            "section_flow_rate",
+            "prescribed_inflow",
+            t_s=float(t),
+            reference=float(inflow[n]),
+            error=None if error is None else float(error[n]),
+        )
+
+
+def change_rows(rows: list[Row], baseline: str) -> Iterator[Row]:
+    """Values and cycle quantities minus, and over, the baseline's: what calcification changes."""
+    kept = [row for row in rows if row.statistic in ("value", "cycle") and row.rom is not None]
+    base = {(r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in kept if r.variant == baseline}
+    for row in kept:
+        other = base.get((row.quantity, row.statistic, row.i, row.j, row.t_s))
+        if row.variant != baseline and other is not None:
+            yield from _change(row, other)
+
+
+def _change(row: Row, base: Row) -> Iterator[Row]:
+    if row.rom is None or row.reference is None or base.rom is None or base.reference is None:
+        return
+    rom, reference = row.rom - base.rom, row.reference - base.reference
+    yield replace(row, statistic="change", rom=rom, reference=reference, error=_single(rom, reference))
+    if base.rom and base.reference:
+        rom, reference = row.rom / base.rom, row.reference / base.reference
+        yield replace(
+            row, statistic="ratio", rom=rom, reference=reference, error=_single(rom, reference), unit="1"
+        )
+
+
+def to_frame(rows: list[Row]) -> pd.DataFrame:
+    """Rows as a table with the columns of the harness, in their order; missing entries are null."""
+    table = pd.DataFrame([vars(row) for row in rows], columns=COLUMNS)
+    return table.astype({"i": "Int64", "j": "Int64"})
