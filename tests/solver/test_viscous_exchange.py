@@ -1,0 +1,77 @@
+"""α and S of the kernels against the formulas for h, α and friction, with spectral derivatives in φ."""
+
+import numpy as np
+import pytest
+
+from solver.profiles import continuity_exponent, momentum_correction
+from solver.schemes import semi_implicit as scheme
+
+KINEMATIC_VISCOSITY = 0.003 / 1060
+MEAN_AREA = 7e-6
+
+
+def spectral(values):
+    """First and second derivative of a smooth periodic row on [0, 2π)."""
+    wave_number = 1j * np.fft.fftfreq(values.size, 1 / values.size)
+    transformed = np.fft.fft(values)
+    return tuple(np.fft.ifft(wave_number**k * transformed).real for k in (1, 2))
+
+
+def exact_source(area, gamma):
+    """S = h − 2(γ+2)(μ/ρ)/A, with h as in (2.2.35), corrected form, in A and γ."""
+    area_1, area_2 = spectral(area)
+    gamma_1, gamma_2 = spectral(gamma)
+    bracket = (
+        -(gamma + 2) / 4 * (area_1 / area) ** 2
+        + 0.5 * area_2 / area
+        - 2 / gamma**3 * gamma_1**2
+        + gamma_2 / gamma**2
+    )
+    exchange = 2 * KINEMATIC_VISCOSITY * (gamma + 2) / (gamma * area) * bracket
+    return exchange - 2 * (gamma + 2) * KINEMATIC_VISCOSITY / area
+
+
+def kernel(area, velocity):
+    rows = area.size
+    alpha, source = np.empty(rows), np.empty(rows)
+    ghosted = np.concatenate((area[-1:], area, area[:1]))
+    axis = 2 * velocity.mean()
+    dphi = 2 * np.pi / rows
+    arguments = (ghosted, 1 / area, velocity, axis, np.empty(rows + 2), KINEMATIC_VISCOSITY, dphi)
+    scheme._profile_source(alpha, source, *arguments)
+    return alpha, source
+
+
+def smooth_rows(rows, area_variation, velocity_variation):
+    phi = (np.arange(rows) + 0.5) * 2 * np.pi / rows
+    area = MEAN_AREA * (1 + area_variation * np.cos(phi - 0.3) + 0.3 * area_variation * np.sin(2 * phi))
+    return area, 0.1 * (1 + velocity_variation * np.sin(phi) + 0.3 * velocity_variation * np.cos(3 * phi))
+
+
+@pytest.mark.parametrize(("area", "velocity"), [(0.0, 0.3), (0.3, 0.0), (0.1, 0.1), (0.3, 0.3)])
+def test_source_converges_to_the_model(area, velocity):
+    errors = []
+    for rows in (64, 128, 256):
+        areas, velocities = smooth_rows(rows, area, velocity)
+        gamma = continuity_exponent(velocities, 0.0)
+        alpha, source = kernel(areas, velocities)
+        np.testing.assert_allclose(alpha, momentum_correction(gamma), rtol=1e-13)
+        exact = exact_source(areas, gamma)
+        errors.append(np.max(np.abs(source - exact)) / np.max(np.abs(exact)))
+    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    assert np.all((orders > 1.9) & (orders < 2.1)), (errors, orders)
+    assert errors[-1] < 2e-3
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_equal_rows_feel_poiseuille_friction_only(sign):
+    area = np.full(5, MEAN_AREA)
+    alpha, source = kernel(area, np.full(5, sign * 0.1))
+    np.testing.assert_allclose(alpha, 4 / 3)
+    np.testing.assert_allclose(source, -8 * KINEMATIC_VISCOSITY / area)
+
+
+def test_exchange_does_not_see_the_direction_of_flow():
+    area, velocity = smooth_rows(24, 0.2, 0.2)
+    for forward, backward in zip(kernel(area, velocity), kernel(area, -velocity), strict=True):
+        np.testing.assert_allclose(backward, forward, rtol=1e-13)
