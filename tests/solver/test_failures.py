@@ -1,0 +1,144 @@
+"""A run that cannot go on says why, when and where, and gives no numbers."""
+
+import numpy as np
+import pytest
+from thesis_artery import DIASTOLE, PATTERNS, SECTION_OUTLET, artery
+
+from solver.errors import (
+    ModelError,
+    NoAdmissibleProfile,
+    NotConverged,
+    NotFinite,
+    RunFailure,
+    SolverError,
+    WallCollapse,
+)
+from solver.model import ResistanceOutlet, State, uniform_state
+from solver.result import to_dataset
+from solver.simulate import Stepper, Trajectory, simulate, steady_state
+from solver.waveform import Waveform
+
+
+def advance(model, state, velocity=DIASTOLE, time_step=1e-3, steps=1):
+    Stepper(model, state).advance(np.full(steps, velocity), time_step, 0.52)
+
+
+def test_flow_that_reverses_row_by_row_has_no_profile():
+    inlet = Waveform(np.linspace(0, 1, 5), 0.08 * np.array([1.0, 1.0, -1.0, -1.0, 1.0]))
+    model = artery(12, 8, inlet=inlet, patch=PATTERNS["local, sharp"])
+    with pytest.raises(NoAdmissibleProfile) as caught:
+        simulate(model, np.linspace(0, 1, 6), 1e-3)
+    failure = caught.value
+    assert 0.25 < failure.time < 0.5  # while the inlet turns
+    assert 1 <= failure.i <= 12
+    assert 1 <= failure.j <= 8
+    assert f"at t = {failure.time:.6g} s, i = {failure.i}, j = {failure.j}" in str(failure)
+    assert "no admissible velocity-profile exponent" in str(failure)
+
+
+@pytest.mark.parametrize(("face", "cell"), [(0, 1), (5, 6), (12, 12)])
+def test_one_jet_has_no_profile_and_is_named(face, cell):
+    """Face f lies left of cell f + 1 (counted from 1); the outlet belongs to the last cell."""
+    model = artery(12, 8)
+    state = uniform_state(model, 9330.0, DIASTOLE)
+    state.flow[face, 3] *= 20
+    state.time = 0.25
+    with pytest.raises(NoAdmissibleProfile, match=rf"at t = 0.251 s, i = {cell}, j = 4$"):
+        advance(model, state)
+
+
+def test_a_single_row_may_reverse():
+    """The 1D model has γ = 2 whatever the direction."""
+    inlet = Waveform(np.linspace(0, 1, 5), 0.08 * np.array([1.0, 1.0, -1.0, -1.0, 1.0]))
+    run = simulate(artery(12, 1, inlet=inlet), np.linspace(0, 1, 6), 1e-3)
+    assert run.flow.min() < 0 < run.flow.max()
+    assert np.all(np.isfinite(run.area))
+
+
+def test_suction_collapses_the_wall():
+    outlet = ResistanceOutlet(1.358e9, -2e5, "section")
+    model = artery(12, 8, outlet=outlet)
+    state = uniform_state(artery(12, 8), 9330.0, DIASTOLE)
+    state.time = 1.5
+    with pytest.raises(WallCollapse, match=r"lumen collapsed .* at t = 1.501 s, i = 12, j = 1$") as caught:
+        advance(model, state)
+    assert (caught.value.i, caught.value.j) == (12, 1)
+    with pytest.raises(WallCollapse):
+        simulate(model, [0.0, 0.1], 1e-3)
+
+
+def test_a_step_without_solution_does_not_converge():
+    """An inlet of 4 m/s beside the wave speed of 7 m/s, in steps of several cells' transit."""
+    model = artery(24, 4)
+    state = uniform_state(model, 9330.0, DIASTOLE)
+    state.time = 2.0
+    with pytest.raises(NotConverged, match=r"did not converge .* at t = 2.01 s$") as caught:
+        advance(model, state, velocity=4.0, time_step=1e-2, steps=20)
+    assert (caught.value.i, caught.value.j) == (0, 0)
+
+
+def test_time_counts_the_steps_that_were_taken():
+    model = artery(12, 8)
+    stepper = Stepper(model, uniform_state(model, 9330.0, DIASTOLE))
+    with pytest.raises(NotFinite, match=r"a field is not finite at t = 0.004 s$"):
+        stepper.advance(np.array([DIASTOLE, DIASTOLE, DIASTOLE, np.nan]), 1e-3, 0.52)
+    assert stepper.steps == 3
+
+
+def test_a_result_without_profile_is_no_result():
+    model = artery(12, 4)
+    state = uniform_state(model, 9330.0, DIASTOLE)
+    flow = np.array([state.flow, state.flow])
+    flow[1, 4:6, 2] *= 20
+    run = Trajectory(model, np.array([0.0, 0.1]), np.array([state.area] * 2), flow, np.zeros(2), 1, 1, 0.1)
+    with pytest.raises(NoAdmissibleProfile, match=r"at t = 0.1 s, i = 4, j = 3$"):
+        to_dataset(run)
+
+
+@pytest.mark.parametrize("times", [[], [0.0, 0.0], [0.1, 0.0], [0.0, np.nan], [[0.0, 1.0]]])
+def test_times_that_are_refused(times):
+    with pytest.raises(ModelError, match="one or more and increase"):
+        simulate(artery(12, 4), times, 1e-3)
+
+
+@pytest.mark.parametrize("time_step", [0.0, -1e-3, np.nan, np.inf])
+def test_time_steps_that_are_refused(time_step):
+    with pytest.raises(ModelError, match=r"time step = .* s; allowed: positive"):
+        simulate(artery(12, 4), [0.0, 1.0], time_step)
+
+
+def test_one_family():
+    for failure in (NoAdmissibleProfile, WallCollapse, NotConverged, NotFinite):
+        assert issubclass(failure, RunFailure)
+    assert issubclass(RunFailure, SolverError)
+    assert issubclass(ModelError, SolverError)
+    assert str(WallCollapse(0.5, 3, 4, "why")).endswith("at t = 0.5 s, i = 3, j = 4: why")
+
+
+@pytest.mark.parametrize("field", ["area", "flow"])
+def test_a_state_that_is_not_a_number_gives_no_result(field):
+    model = artery(12, 8)
+    state = uniform_state(model, 9330.0, DIASTOLE)
+    getattr(state, field)[5, 2] = np.nan
+    with pytest.raises(SolverError):
+        advance(model, state)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"outlet": ResistanceOutlet(1e9, np.nan, "section")}, {"reference_pressure": np.nan}],
+    ids=["outlet", "wall"],
+)
+def test_a_pressure_that_is_not_a_number_gives_no_result(changes):
+    with pytest.raises(SolverError):
+        steady_state(artery(12, 8, **changes), DIASTOLE)
+
+
+def test_a_failed_step_does_not_touch_the_state():
+    model = artery(12, 8, outlet=ResistanceOutlet(SECTION_OUTLET.resistance, -2e5, "section"))
+    state = uniform_state(artery(12, 8), 9330.0, DIASTOLE)
+    before = State(state.time, state.area.copy(), state.flow.copy())
+    with pytest.raises(WallCollapse):
+        advance(model, state)
+    np.testing.assert_array_equal(state.area, before.area)
+    np.testing.assert_array_equal(state.flow, before.flow)
