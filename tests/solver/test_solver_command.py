@@ -1,0 +1,190 @@
+"""``python -m solver``: one NetCDF file, or one line that says why not."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import solver.__main__ as command
+from cases.fields import FIELDS
+
+ROOT = Path(__file__).parents[2]
+VARIABLES = {
+    "pressure",
+    "radius",
+    "mean_velocity",
+    "profile_exponent",
+    "sector_flow_rate",
+    "section_flow_rate",
+    "section_pressure",
+    "wall_stiffness",
+    "mass_defect",
+}
+
+
+@pytest.fixture
+def run(monkeypatch, capsys):
+    """Run the command in this process; gives (status, standard output, standard error)."""
+
+    def with_arguments(*arguments):
+        monkeypatch.setattr(sys, "argv", ["solver", *map(str, arguments)])
+        status = command.main()
+        return status, *capsys.readouterr()
+
+    return with_arguments
+
+
+@pytest.fixture
+def result(run, case_file):
+    output = case_file.with_name("run.nc")
+    status, text, errors = run(case_file, "--variant", "patch", "--output", output)
+    assert (status, errors) == (0, "")
+    assert text == f"{output}: 200 steps of at most 0.002 s\n"
+    with xr.open_dataset(output) as dataset:
+        yield dataset.load()
+
+
+def test_the_module_runs_as_a_command(case_file):
+    output = case_file.with_name("run.nc")
+    arguments = [sys.executable, "-m", "solver", case_file, "--variant", "healthy", "--output", output]
+    done = subprocess.run(arguments, cwd=ROOT, capture_output=True, text=True, check=False)  # noqa: S603
+    assert (done.returncode, done.stderr) == (0, "")
+    assert output.stat().st_size > 0
+    assert sorted(path.name for path in case_file.parent.iterdir()) == ["inlet.csv", "run.nc", "short.yaml"]
+
+
+def test_dimensions_units_and_words(result):
+    assert dict(result.sizes) == {"time": 21, "x": 12, "phi": 8}
+    assert set(result.data_vars) == VARIABLES
+    for name, variable in result.data_vars.items():
+        field = FIELDS[name]
+        assert variable.dims == field.dims
+        assert variable.attrs["units"] == field.unit
+        assert variable.attrs["long_name"] == field.label
+        assert np.all(np.isfinite(variable))
+    assert [result[name].attrs["units"] for name in ("time", "x", "phi")] == ["s", "m", "rad"]
+    np.testing.assert_allclose(result["time"], np.linspace(0, 0.4, 21), atol=1e-12)
+    np.testing.assert_allclose(result["x"], (np.arange(12) + 0.5) * 15e-3 / 12)
+    np.testing.assert_allclose(result["phi"], (np.arange(8) + 0.5) * np.pi / 4)
+
+
+def test_where_it_comes_from(result, case_file):
+    assert result.attrs["case_yaml"] == case_file.read_text()
+    expected = {"case": "short", "title": "A short artery", "variant": "patch", "scheme": "semi_implicit"}
+    assert {key: result.attrs[key] for key in expected} == expected
+    assert result.attrs["steps"] == 200
+    assert result.attrs["time_step_s"] == pytest.approx(2e-3)
+
+
+def test_fields_agree_with_each_other(result):
+    radius, stiffness = result["radius"], result["wall_stiffness"]
+    law = (radius - 2.5e-3) * stiffness / 2.5e-3**2
+    np.testing.assert_allclose(result["pressure"], law, rtol=1e-9)
+    sector = 0.5 * np.pi / 4 * result["mean_velocity"] * radius**2
+    np.testing.assert_allclose(result["sector_flow_rate"], sector, rtol=1e-12)
+    total = result["sector_flow_rate"].sum("phi")
+    np.testing.assert_allclose(result["section_flow_rate"], total, rtol=1e-12)
+    exponent, velocity = result["profile_exponent"], result["mean_velocity"]
+    axis = (exponent + 2) / exponent * velocity
+    np.testing.assert_allclose(axis / (2 * velocity.mean("phi")), 1.0, rtol=1e-10)
+    mean = (result["pressure"] * radius**2).sum("phi") / (radius**2).sum("phi")
+    np.testing.assert_allclose(result["section_pressure"], mean, rtol=1e-12)
+    assert float(np.abs(result["mass_defect"]).max()) < 1e-10
+
+
+def test_the_patch_is_where_the_case_says(result):
+    calcified = result["wall_stiffness"] > 1000
+    np.testing.assert_allclose(result["wall_stiffness"].where(calcified, drop=True), 20000 / 3)
+    x, phi = result["x"], result["phi"]
+    inside = (x > 5e-3) & (x < 10e-3) & (phi > 0.75 * np.pi) & (phi < 1.25 * np.pi)
+    np.testing.assert_array_equal(calcified, inside)
+
+
+def refused(answer, folder, *parts):
+    """One line on standard error, status 2, no file but the inputs."""
+    status, text, errors = answer
+    assert status == 2
+    assert text == ""
+    assert errors.count("\n") == 1
+    for part in parts:
+        assert part in errors
+    assert sorted(path.name for path in folder.iterdir()) == ["inlet.csv", "short.yaml"]
+
+
+def test_an_unknown_variant(run, case_file):
+    answer = run(case_file, "--variant", "nobody", "--output", case_file.with_name("run.nc"))
+    refused(answer, case_file.parent, "short.yaml", "no variant 'nobody'", "allowed: healthy, patch")
+
+
+def test_no_variant_where_there_are_two(run, case_file):
+    answer = run(case_file, "--output", case_file.with_name("run.nc"))
+    refused(answer, case_file.parent, "--variant: healthy, patch")
+
+
+def test_a_missing_case_file(run, case_file):
+    missing = case_file.with_name("absent.yaml")
+    answer = run(missing, "--variant", "patch", "--output", case_file.with_name("run.nc"))
+    refused(answer, case_file.parent, "absent.yaml", "No such file")
+
+
+def test_a_missing_folder(run, case_file):
+    output = case_file.parent / "absent" / "run.nc"
+    answer = run(case_file, "--variant", "patch", "--output", output)
+    refused(answer, case_file.parent, str(output), "its folder does not exist")
+
+
+def test_a_wrong_value(run, case_file):
+    case_file.write_text(case_file.read_text().replace("n_x: 12", "n_x: 2"))
+    answer = run(case_file, "--variant", "patch", "--output", case_file.with_name("run.nc"))
+    refused(answer, case_file.parent, "short.yaml, line 9: solver.n_x: 2; allowed: ")
+
+
+def test_a_run_that_fails(run, case_file):
+    case_file.with_name("inlet.csv").write_text("t_s,mean_velocity_cm_s\n0,8\n0.05,-8\n0.2,8\n")
+    answer = run(case_file, "--variant", "patch", "--output", case_file.with_name("run.nc"))
+    refused(answer, case_file.parent, "no admissible velocity-profile exponent", "t = 0.0", "i = ", "j = ")
+
+
+def test_an_older_result_survives_a_failure_and_not_a_success(run, case_file):
+    output = case_file.with_name("run.nc")
+    output.write_text("older")
+    assert run(case_file, "--variant", "nobody", "--output", output)[0] == 2
+    assert output.read_text() == "older"
+    assert run(case_file, "--variant", "healthy", "--output", output)[0] == 0
+    with xr.open_dataset(output) as dataset:
+        assert dataset.attrs["variant"] == "healthy"
+
+
+def test_an_output_that_cannot_be_written(run, case_file):
+    """A folder of that name stands there."""
+    output = case_file.with_name("run.nc")
+    output.mkdir()
+    status, text, errors = run(case_file, "--variant", "healthy", "--output", output)
+    assert (status, text) == (2, "")
+    assert errors.count("\n") == 1
+    assert "run.nc: cannot be written: " in errors
+    names = sorted(path.name for path in case_file.parent.iterdir())
+    assert names == ["inlet.csv", "run.nc", "short.yaml"]
+
+
+def test_an_interrupt_leaves_nothing(run, case_file, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "simulate", interrupted)
+    status, text, errors = run(case_file, "--variant", "patch", "--output", case_file.with_name("run.nc"))
+    assert (status, text, errors) == (130, "", "interrupted; nothing was written\n")
+    assert sorted(path.name for path in case_file.parent.iterdir()) == ["inlet.csv", "short.yaml"]
+
+
+def test_the_only_variant_needs_no_name(run, case_file):
+    text = case_file.read_text()
+    case_file.write_text(text[: text.index("variants:")].replace("cycles: 2", "cycles: 1"))
+    output = case_file.with_name("run.nc")
+    assert run(case_file, "--output", output)[0] == 0
+    with xr.open_dataset(output) as dataset:
+        assert dataset.attrs["variant"] == "base"
+        assert dataset.sizes["time"] == 11
