@@ -9,12 +9,14 @@ from thesis_artery import DIASTOLE, thesis_waveform
 from solver.errors import ModelError
 from solver.waveform import Waveform, constant, local_minima
 
+speeds = st.integers(-10_000, 10_000).map(lambda tenths_of_a_millimetre: tenths_of_a_millimetre / 10_000)
+
 
 @st.composite
 def waveforms(draw):
     steps = draw(st.lists(st.floats(0.01, 1.0), min_size=2, max_size=12))
-    inner = draw(st.lists(st.floats(-1.0, 1.0), min_size=len(steps) - 1, max_size=len(steps) - 1))
-    first = draw(st.floats(-1.0, 1.0))
+    inner = draw(st.lists(speeds, min_size=len(steps) - 1, max_size=len(steps) - 1))
+    first = draw(speeds)
     return Waveform(np.concatenate(([0.0], np.cumsum(steps))), np.array([first, *inner, first]))
 
 
