@@ -2,8 +2,9 @@
 
 import mmap
 import zlib
+from collections.abc import Iterator
 
-FEED_SIZE = 1 << 16
+FEED_SIZE = 1 << 18
 BLOCK_SIZE = 1 << 18
 
 
@@ -47,17 +48,25 @@ class Inflater:
         zlib.error
             If the bytes are no zlib stream.
         """
-        pieces = []
+        return b"".join(self.pieces(count))
+
+    def pieces(self, count: int) -> Iterator[bytes]:
+        """Inflate up to `count` bytes, as :meth:`read` does, and give them piece by piece.
+
+        Raises
+        ------
+        zlib.error
+            If the bytes are no zlib stream.
+        """
         wanted = count
         while wanted and not self._stream.eof:
             feed = self._stream.unconsumed_tail or self._feed()
             piece = self._stream.decompress(feed, wanted)
             if not feed and not piece:
                 break
-            pieces.append(piece)
             wanted -= len(piece)
-        self.inflated += count - wanted
-        return b"".join(pieces)
+            self.inflated += len(piece)
+            yield piece
 
     def skip(self, count: int) -> int:
         """Inflate and drop up to `count` bytes; return how many there were."""

@@ -192,7 +192,7 @@ def _read_stream(source: Source, inflater: Inflater, position: int, keep: int) -
     total = HEADER_SIZE + size
     content, head = b"", b""
     if total <= keep:
-        content = start + inflater.read(size)
+        content = b"".join((start, *inflater.pieces(size)))
     elif tag == Tag.STATE:
         head = _stream_head(source, inflater, total)
     inflater.skip(total - inflater.inflated)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
+from febio_io.data_records import read_data_record
 from febio_io.xplt import open_plot
 
 NAMES = ["none", "axisymmetric", "local", "tiny_raw", "tiny_zlib"]
@@ -11,14 +12,10 @@ NAMES = ["none", "axisymmetric", "local", "tiny_raw", "tiny_zlib"]
 
 def read_records(path):
     """Read a data record: times, and rows of numbers for each (first column: item number)."""
-    times, tables = [], []
-    for line in path.read_text().splitlines():
-        if line.startswith("*Time"):
-            times.append(float(line.split("=")[1]))
-            tables.append([])
-        elif line and not line.startswith("*"):
-            tables[-1].append([float(word) for word in line.replace(",", " ").split()])
-    return np.array(times), np.array(tables)
+    record = read_data_record(path)
+    assert (record.is_regular, record.warnings) == (True, ())
+    rows = np.column_stack([record.items, record.values])
+    return record.times, rows.reshape(len(record.times), -1, rows.shape[1])
 
 
 @pytest.mark.parametrize("name", NAMES)
