@@ -58,3 +58,10 @@ def test_pressures_of_the_last_cycle(run, quantity, extreme):
 
 def test_rows_stay_equal(run):
     np.testing.assert_allclose(run.flow, run.flow[..., :1] * np.ones(4), rtol=1e-12)
+
+
+def test_radii_of_the_last_cycle(run):
+    """Least radius 0.2667 cm: what 10.66 kPa gives; the thesis's sentence prints 0.2677 cm."""
+    radius = np.sqrt(run.area[1:]) * 100
+    assert radius.max() == pytest.approx(0.2748, abs=6e-5)
+    assert radius.min() == pytest.approx(0.2667, abs=6e-5)

@@ -75,3 +75,23 @@ def test_exchange_does_not_see_the_direction_of_flow():
     area, velocity = smooth_rows(24, 0.2, 0.2)
     for forward, backward in zip(kernel(area, velocity), kernel(area, -velocity), strict=True):
         np.testing.assert_allclose(backward, forward, rtol=1e-13)
+
+
+def test_a_section_at_rest_feels_poiseuille_friction():
+    """The limit of slow equal rows."""
+    area = MEAN_AREA * np.array([1.0, 1.1, 0.9, 1.0])
+    alpha, source = np.empty(4), np.empty(4)
+    scheme._rest_source(alpha, source, 1 / area, KINEMATIC_VISCOSITY)
+    np.testing.assert_allclose(alpha, 4 / 3)
+    np.testing.assert_allclose(source, -8 * KINEMATIC_VISCOSITY / area)
+
+
+def test_areas_of_faces_are_exact_where_the_area_is_linear():
+    x = np.arange(6) + 0.5
+    slopes = np.array([0.0, 0.1, -0.2, 0.3])
+    mean, outlet = 10 + np.outer(x, slopes), 10 + 6 * slopes
+    for face in range(7):
+        area = np.empty(6)
+        scheme._face_area(face, mean, outlet, area)
+        row = 10 + face * slopes
+        np.testing.assert_allclose(area, [row[-1], *row, row[0]], rtol=1e-14)
