@@ -120,12 +120,6 @@ def _increasing(x: tuple[float, float]) -> tuple[float, float]:
     return x
 
 
-def pattern_of(value: object) -> str | None:
-    """Return the pattern that a section states, or None."""
-    pattern = value.get("pattern") if isinstance(value, dict) else getattr(value, "pattern", None)
-    return pattern if isinstance(pattern, str) else None
-
-
 Calcification = (
     Annotated[NoCalcification, Tag("none")]
     | Annotated[AxisymmetricCalcification, Tag("axisymmetric")]

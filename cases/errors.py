@@ -12,8 +12,8 @@ class QuantityError(CaseError):
     """A text is not a quantity of the expected dimension; the message is the reason alone."""
 
 
-class WaveformError(CaseError):
-    """A waveform file cannot be used."""
+class ColumnFileError(CaseError):
+    """A waveform or a wall curve cannot be read from its file."""
 
 
 class RefusedValueError(CaseError):

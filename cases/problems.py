@@ -1,14 +1,14 @@
 """From the schema's findings to messages: where each one stands, and what is allowed there."""
 
-from types import UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from dataclasses import dataclass
+from typing import Annotated, Any, get_args, get_origin
 
-from pydantic import Tag, ValidationError
+from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from cases.errors import Problem, RefusedValueError
-from cases.section import Section
+from cases.section import Section, bare, is_section, keys_by_tag, members_by_tag
 from cases.values import ValueKind
 from cases.variants import DISCRIMINATORS
 from cases.wording import choices, not_one_of, shown, unknown_key
@@ -37,20 +37,35 @@ def problems_of(error: ValidationError, schema: type[Section], root: Node) -> li
     found = []
     for detail in error.errors(include_url=False):
         if detail["type"] != "default_factory_not_called":  # follows from another problem
-            path, kind = _resolve(schema, detail["loc"])
-            key, message = _describe(detail, path, kind)
+            key, message = _describe(detail, _resolve(schema, detail["loc"]))
             node = root.find(key)
             found.append(Problem(node.line, node.key or "the whole file", message))
     return found
 
 
-def _describe(detail: ErrorDetails, path: Path, kind: object) -> tuple[Path, str]:
-    """Return the path that a finding blames and its message; `kind` is what the schema wants there."""
-    value = detail["input"]
+@dataclass(frozen=True)
+class _Place:
+    """Where a finding stands.
 
-    def discriminator() -> Path:
-        return (*path, DISCRIMINATORS[str(path[-1])])
+    Attributes
+    ----------
+    path : tuple of str or int
+        Its keys in the file.
+    kind : object
+        What the schema wants there; for an unknown key, the section that lacks it.
+    section : tuple of str or int, union : object
+        The innermost section that is one of several kinds, and their union; None where none is.
+    """
 
+    path: Path
+    kind: object
+    section: Path = ()
+    union: object = None
+
+
+def _describe(detail: ErrorDetails, place: _Place) -> tuple[Path, str]:
+    """Return the path that a finding blames and its message."""
+    value, path, kind = detail["input"], place.path, place.kind
     match detail["type"]:
         case "value_error":
             error = detail["ctx"]["error"]
@@ -58,67 +73,56 @@ def _describe(detail: ErrorDetails, path: Path, kind: object) -> tuple[Path, str
         case "missing":
             return path, f"missing; allowed: {_allowed(kind)}"
         case "extra_forbidden":
-            return path, unknown_key(str(path[-1]), _keys_beside(kind))
-        case "union_tag_not_found" if isinstance(value, dict):
-            return discriminator(), f"missing; allowed: {choices(_tags(kind))}"
-        case "union_tag_invalid":
-            return discriminator(), not_one_of(detail["ctx"]["tag"], _tags(kind))
+            return path, _unknown_key(place)
+        case "union_tag_not_found" | "union_tag_invalid" if isinstance(value, dict):
+            key, tags = DISCRIMINATORS[str(path[-1])], list(members_by_tag(kind))
+            stated = not_one_of(value[key], tags) if key in value else f"missing; allowed: {choices(tags)}"
+            return (*path, key), stated
         case "too_long" | "too_short":
             return path, f"{detail['ctx']['actual_length']} items; allowed: {_allowed(kind)}"
         case _:
             return path, f"{shown(value)}; allowed: {_allowed(kind)}"
 
 
-def _resolve(schema: type[Section], location: Path) -> tuple[Path, object]:
-    """Follow a location through the schema; the tags that the schema puts between the keys drop out.
+def _unknown_key(place: _Place) -> str:
+    """Describe a key that a section does not have, though another kind of the section may have it."""
+    key, keys = str(place.path[-1]), _keys_beside(place.kind)
+    owners = []
+    if place.section == place.path[:-1]:
+        owners = [tag for tag, known in keys_by_tag(place.union).items() if key in known]
+    if not owners:
+        return unknown_key(key, keys)
+    return f"only with {DISCRIMINATORS[str(place.section[-1])]} {', '.join(owners)}; allowed: {choices(keys)}"
 
-    Returns the path in the file and the annotation there; for an unknown key, that of its section.
-    """
-    path: list[str | int] = []
+
+def _resolve(schema: type[Section], location: Path) -> _Place:
+    """Follow a location through the schema; the tags that the schema puts between the keys drop out."""
+    path: Path = ()
+    section: Path = ()
     kind: Any = schema
+    union: Any = None
     for part in location:
-        kind = _bare(kind)
-        if _is_section(kind):
-            path.append(part)
-            field = kind.model_fields.get(part)
+        kind = bare(kind)
+        if is_section(kind):
+            path += (part,)
+            field = kind.model_fields.get(str(part))
             kind = kind if field is None else _annotation(field)
         elif get_origin(kind) is tuple:
-            path.append(part)
+            path += (part,)
             items = get_args(kind)
             kind = items[0] if items[-1] is ... else items[int(part)]
         else:
-            kind = next(member for member in get_args(kind) if _tag(member) == part)
-    return tuple(path), kind
+            section, union = path, kind
+            kind = members_by_tag(kind)[str(part)]
+    return _Place(path, kind, section, union)
 
 
 def _annotation(field: FieldInfo) -> object:
     return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
 
 
-def _bare(kind: Any) -> Any:
-    """Strip `Annotated` and `| None` from an annotation."""
-    if get_origin(kind) is Annotated:
-        return _bare(get_args(kind)[0])
-    members = [member for member in get_args(kind) if member is not type(None)]
-    if get_origin(kind) in (Union, UnionType) and len(members) == 1:
-        return _bare(members[0])
-    return kind
-
-
-def _is_section(kind: object) -> bool:
-    return isinstance(kind, type) and issubclass(kind, Section)
-
-
-def _tag(member: Any) -> str | None:
-    return next((mark.tag for mark in getattr(member, "__metadata__", ()) if isinstance(mark, Tag)), None)
-
-
-def _tags(kind: object) -> list[str]:
-    return [str(_tag(member)) for member in get_args(_bare(kind))]
-
-
 def _keys_beside(kind: Any) -> list[str]:
-    return list(_bare(kind).model_fields)
+    return list(bare(kind).model_fields)
 
 
 def _allowed(kind: Any) -> str:
@@ -126,15 +130,16 @@ def _allowed(kind: Any) -> str:
     for mark in getattr(kind, "__metadata__", ()):
         if isinstance(mark, ValueKind):
             return mark.allowed
-    bare = _bare(kind)
-    if _is_section(bare):
-        return f"a section with the keys {choices(_keys_beside(bare))}"
-    if get_origin(bare) is tuple:
-        items = get_args(bare)
+    bare_kind = bare(kind)
+    if is_section(bare_kind):
+        return f"a section with the keys {choices(_keys_beside(bare_kind))}"
+    if get_origin(bare_kind) is tuple:
+        items = get_args(bare_kind)
         size = "" if items[-1] is ... else f" of {len(items)}"
         return f"a list{size}, each item {_allowed(items[0])}"
-    members = [member for member in get_args(bare) if member is not type(None)]
-    if all(_is_section(_bare(member)) for member in members):
-        shared = set.intersection(*(set(_keys_beside(member)) for member in members))
-        return f"a section with the key {choices(shared)} ({choices(_tags(bare))})"
+    tags = members_by_tag(bare_kind)
+    if tags and all(is_section(bare(member)) for member in tags.values()):
+        key = _keys_beside(next(iter(tags.values())))[0]  # each kind of a section states first which it is
+        return f"a section with the key {key} ({choices(tags)})"
+    members = [member for member in get_args(bare_kind) if member is not type(None)]
     return ", or ".join(_allowed(member) for member in members)

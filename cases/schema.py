@@ -1,9 +1,9 @@
 """The schema of a case: every section, its keys and what they may hold. Values are in SI units."""
 
-from typing import Annotated, Any, Literal, Self
+from pathlib import Path
+from typing import Annotated
 
-from pydantic import Discriminator, Field, ValidationInfo, field_validator, model_validator
-from pydantic_core.core_schema import ValidatorFunctionWrapHandler
+from pydantic import Field, ValidationInfo, field_validator
 
 from cases.calcification import (
     AxialTransition,
@@ -12,30 +12,16 @@ from cases.calcification import (
     LocalCalcification,
     NoCalcification,
     PatchTransition,
-    pattern_of,
 )
 from cases.comparison import Band, Cells, Compare
+from cases.inlet import FlowInlet, Inlet, PressureInlet, VelocityInlet
+from cases.outlet import NonReflectingOutlet, Outlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
 from cases.reference import FebioReference
-from cases.section import Section
-from cases.values import (
-    ArteryLength,
-    Density,
-    Modulus,
-    Period,
-    Pressure,
-    Radius,
-    Resistance,
-    Thickness,
-    TimeStep,
-    Velocity,
-    Viscosity,
-    WaveformFile,
-    Words,
-    number,
-    one_of,
-    refused,
-    whole_number,
-)
+from cases.section import Section, told_apart_by
+from cases.solver_settings import FEWEST_ROWS, GodunovSolver, SemiImplicitSolver, Solver, Start
+from cases.sources import FourierSeries
+from cases.values import ArteryLength, Density, Radius, Thickness, Viscosity, Words, refused
+from cases.wall import LINEAR_LAWS, HomogeneousWall, Layer, LayeredWall, TableWall, Wall
 
 __all__ = [
     "AxialTransition",
@@ -47,23 +33,31 @@ __all__ = [
     "Cells",
     "Compare",
     "FebioReference",
+    "FlowInlet",
+    "FourierSeries",
     "Geometry",
+    "GodunovSolver",
+    "HomogeneousWall",
+    "Inlet",
+    "Layer",
+    "LayeredWall",
     "LocalCalcification",
     "NoCalcification",
+    "NonReflectingOutlet",
+    "Outlet",
     "PatchTransition",
+    "PressureInlet",
+    "PressureOutlet",
     "ResistanceOutlet",
+    "SemiImplicitSolver",
     "Solver",
+    "TableWall",
     "VelocityInlet",
     "Wall",
+    "WindkesselOutlet",
 ]
 
-DEFAULT_PERIOD = 1.0
-FEWEST_ROWS = 4
-
-PoissonRatio = number("a number from 0 on, less than 0.5", lambda value: 0 <= value < 0.5)
-Sections = whole_number("a whole number from 3 on", lambda value: value >= 3)
-Rows = whole_number("1, or a whole number from 4 on", lambda value: value == 1 or value >= FEWEST_ROWS)
-Cycles = whole_number("a whole number from 1 on", lambda value: value >= 1)
+SAME = 1e-9  # relative difference of sums and periods that are meant to be equal
 
 
 class Geometry(Section):
@@ -95,118 +89,6 @@ class Blood(Section):
     viscosity: Viscosity
 
 
-class Wall(Section):
-    """The healthy wall.
-
-    Attributes
-    ----------
-    law : str
-        ``thin`` or ``thick``: the stiffness of a thin-walled or of a thick-walled tube.
-    youngs_modulus : float
-        E in Pa.
-    poisson_ratio : float
-        ν in [0, 0.5).
-    reference_pressure : float
-        Transmural pressure P₀ of the unloaded radius in Pa.
-    """
-
-    law: Annotated[Literal["thin", "thick"], one_of(Literal["thin", "thick"])]
-    youngs_modulus: Modulus
-    poisson_ratio: Annotated[float, PoissonRatio]
-    reference_pressure: Pressure = 0.0
-
-
-def _default_period(inlet: dict[str, Any]) -> float:
-    waveform = inlet.get("waveform")
-    return DEFAULT_PERIOD if waveform is None else float(waveform.period)
-
-
-class VelocityInlet(Section):
-    """A prescribed mean velocity.
-
-    Attributes
-    ----------
-    waveform : Waveform or None
-        Mean velocity over one cycle.
-    value : float or None
-        Constant mean velocity in m/s. Exactly one of `waveform` and `value` is stated.
-    period : float
-        Duration of a cycle in s: the waveform's, or the one stated beside `value` (1 s by default).
-    """
-
-    kind: Annotated[Literal["velocity"], one_of(Literal["velocity"])]
-    waveform: WaveformFile | None = None
-    value: Velocity | None = None
-    period: Period = Field(default_factory=_default_period)
-
-    @field_validator("period", mode="wrap")
-    @classmethod
-    def _period(cls, stated: object, check: ValidatorFunctionWrapHandler, info: ValidationInfo) -> float:
-        if info.data.get("waveform") is not None:
-            raise refused(stated, "no period beside a waveform, which has its own")
-        return float(check(stated))
-
-    @model_validator(mode="after")
-    def _one_source(self) -> Self:
-        if (self.waveform is None) == (self.value is None):
-            found = "neither waveform nor value" if self.value is None else "waveform and value"
-            raise refused(found, "exactly one of waveform and value")
-        return self
-
-
-class ResistanceOutlet(Section):
-    """A terminal resistance: P = P_res + R_res q.
-
-    Attributes
-    ----------
-    resistance, offset : float
-        R_res in Pa s/m³ and P_res in Pa.
-    flow : str
-        What q is: the flow rate of the whole ``section``, or each ``row``'s own.
-    """
-
-    kind: Annotated[Literal["resistance"], one_of(Literal["resistance"])]
-    resistance: Resistance
-    offset: Pressure
-    flow: Annotated[Literal["section", "row"], one_of(Literal["section", "row"])] = "section"
-
-
-class Solver(Section):
-    """The numerical solution.
-
-    Attributes
-    ----------
-    scheme : str
-        The numerical scheme.
-    n_x, n_phi : int
-        Number of sections along x and of rows along φ.
-    time_step : float
-        Δt in s, at most the inlet's period.
-    cycles : int
-        Number of cycles; results are taken from the last one.
-    closure : str
-        How the velocity profile closes the equations.
-    output_interval : float or None
-        Time between saved states in s, at least the time step.
-    """
-
-    scheme: Annotated[Literal["semi_implicit"], one_of(Literal["semi_implicit"])]
-    n_x: Annotated[int, Sections]
-    n_phi: Annotated[int, Rows]
-    time_step: TimeStep
-    cycles: Annotated[int, Cycles]
-    closure: Annotated[Literal["average"], one_of(Literal["average"])]
-    output_interval: TimeStep | None = None
-
-    @field_validator("output_interval")
-    @classmethod
-    def _output_interval(cls, interval: float | None, info: ValidationInfo) -> float | None:
-        time_step = info.data.get("time_step")
-        if interval is not None and time_step is not None and interval < time_step:
-            raise refused(f"{interval:g} s", f"at least the time step ({time_step:g} s)")
-        return interval
-
-
 class Case(Section):
     """One complete case: an artery, its boundary conditions, a solver, and what to compare.
 
@@ -225,35 +107,71 @@ class Case(Section):
     title: Words
     geometry: Geometry
     blood: Blood
-    wall: Wall
-    calcification: Annotated[Calcification, Discriminator(pattern_of)]
-    inlet: VelocityInlet
-    outlet: ResistanceOutlet
-    solver: Solver
+    wall: Annotated[Wall, told_apart_by("law")]
+    calcification: Annotated[Calcification, told_apart_by("pattern")]
+    inlet: Annotated[Inlet, told_apart_by("kind")]
+    outlet: Annotated[Outlet, told_apart_by("kind")]
+    solver: Annotated[Solver, told_apart_by("scheme")]
     reference: FebioReference | None = None
     compare: Compare = Field(default=Compare(), validate_default=True)
+
+    @field_validator("wall")
+    @classmethod
+    def _around_the_lumen(cls, wall: Wall, info: ValidationInfo) -> Wall:
+        geometry = info.data.get("geometry")
+        if geometry is not None and isinstance(wall, LayeredWall):
+            total = sum(layer.thickness for layer in wall.layers)
+            if abs(total - geometry.wall_thickness) > SAME * geometry.wall_thickness:
+                allowed = f"thicknesses that sum to geometry.wall_thickness ({geometry.wall_thickness:g} m)"
+                raise refused(f"{total:.9g} m in all", allowed, key=("layers",))
+        if geometry is not None and isinstance(wall, TableWall):
+            least, largest = wall.table.radii[[0, -1]]
+            if not least <= geometry.radius <= largest:
+                allowed = f"a range that holds geometry.radius ({geometry.radius:g} m)"
+                raise refused(f"radii from {least:g} m to {largest:g} m", allowed, key=("table",))
+        return wall
 
     @field_validator("calcification")
     @classmethod
     def _inside_the_artery(cls, calcification: Calcification, info: ValidationInfo) -> Calcification:
-        geometry = info.data.get("geometry")
-        if geometry is None or isinstance(calcification, NoCalcification):
+        if isinstance(calcification, NoCalcification):
             return calcification
-        if calcification.x[1] > geometry.length:
+        geometry, wall = info.data.get("geometry"), info.data.get("wall")
+        if geometry is not None and calcification.x[1] > geometry.length:
             found = f"{calcification.x[1]:g} m"
             raise refused(found, f"at most the artery's length ({geometry.length:g} m)", key=("x", 1))
+        if isinstance(wall, LayeredWall) and not any(layer.calcifies for layer in wall.layers):
+            allowed = "none, unless a layer of the wall states calcifies: true"
+            raise refused(calcification.pattern, allowed, key=("pattern",))
         return calcification
+
+    @field_validator("outlet")
+    @classmethod
+    def _in_step_with_the_inlet(cls, outlet: Outlet, info: ValidationInfo) -> Outlet:
+        inlet = info.data.get("inlet")
+        if inlet is not None and isinstance(outlet, PressureOutlet) and outlet.waveform is not None:
+            period = outlet.waveform.period
+            if abs(period - inlet.period) > SAME * inlet.period:
+                allowed = f"the period of the inlet ({inlet.period:g} s)"
+                raise refused(f"a period of {period:g} s", allowed, key=("waveform",))
+        return outlet
 
     @field_validator("solver")
     @classmethod
     def _fits_the_case(cls, solver: Solver, info: ValidationInfo) -> Solver:
         inlet, calcification = info.data.get("inlet"), info.data.get("calcification")
+        wall, outlet = info.data.get("wall"), info.data.get("outlet")
+        if isinstance(solver, GodunovSolver) and wall is not None and wall.law not in LINEAR_LAWS:
+            allowed = f"semi_implicit with the wall law {wall.law}; godunov with {', '.join(LINEAR_LAWS)}"
+            raise refused(solver.scheme, allowed, key=("scheme",))
         if inlet is not None and solver.time_step > inlet.period:
             allowed = f"at most the period of the inlet ({inlet.period:g} s)"
             raise refused(f"{solver.time_step:g} s", allowed, key=("time_step",))
         if isinstance(calcification, LocalCalcification) and solver.n_phi < FEWEST_ROWS:
             allowed = f"{FEWEST_ROWS} or more with a local calcification"
             raise refused(solver.n_phi, allowed, key=("n_phi",))
+        if "start" not in solver.model_fields_set and inlet is not None and outlet is not None:
+            return solver.model_copy(update={"start": _default_start(inlet, outlet)})
         return solver
 
     @field_validator("compare")
@@ -267,3 +185,22 @@ class Case(Section):
                 allowed = f"at most the period of the inlet ({inlet.period:g} s)"
                 raise refused(f"{time:g} s", allowed, key=("times", item))
         return compare.model_copy(update={"cells": compare.cells.on_grid(solver.n_x, solver.n_phi)})
+
+    @property
+    def input_files(self) -> tuple[Path, ...]:
+        """Absolute paths of the files that the case was read from, besides the case file itself."""
+        outlet = self.outlet
+        paths = (
+            None if self.reference is None else self.reference.plot_file,
+            self.wall.table.path if isinstance(self.wall, TableWall) else None,
+            None if self.inlet.waveform is None else self.inlet.waveform.path,
+            outlet.waveform.path if isinstance(outlet, PressureOutlet) and outlet.waveform else None,
+        )
+        return tuple(path for path in paths if path is not None)
+
+
+def _default_start(inlet: Inlet, outlet: Outlet) -> Start:
+    """Return rest where a ramp leads away from it, or where the boundaries determine no flow."""
+    ramped = inlet.ramp is not None or (isinstance(outlet, ResistanceOutlet) and outlet.ramp is not None)
+    undetermined = isinstance(inlet, PressureInlet) and isinstance(outlet, NonReflectingOutlet)
+    return "rest" if ramped or undetermined else "steady"

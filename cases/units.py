@@ -53,6 +53,7 @@ DIMENSIONS = {
         Dimension("viscosity", "Pa s", ("Pa s", "mPa s", "kg/m/s", "poise", "cP")),
         Dimension("flow rate", "m3 s-1", ("m^3/s", "cm^3/s", "ml/s", "ml/min", "l/min")),
         Dimension("resistance", "Pa s m-3", ("Pa s/m^3", "mmHg s/ml", "dyn s/cm^5")),
+        Dimension("compliance", "m3 Pa-1", ("m^3/Pa", "ml/mmHg", "cm^5/dyn")),
         Dimension("angle", "rad", ("deg", "rad")),
     )
 }

@@ -1,5 +1,6 @@
 """The kinds of value that a case file holds, each with the words that say what is allowed."""
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,9 +10,11 @@ from typing import Annotated, Any, Literal, TypeVar, get_args
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, PlainSerializer
 from pydantic_core import CoreSchema, core_schema
 
-from cases.errors import QuantityError, RefusedValueError, WaveformError
+from cases.column_file import FLOW_RATE, PRESSURE, VELOCITY, Column
+from cases.errors import ColumnFileError, QuantityError, RefusedValueError
 from cases.input_files import find_file
-from cases.units import DIMENSIONS, parse_quantity
+from cases.units import DIMENSIONS, parse_quantity, parse_ratio
+from cases.wall_curve_file import WallCurve, read_wall_curve
 from cases.waveform_file import Waveform, read_waveform
 from cases.wording import but_allowed, choices, not_one_of, shown
 
@@ -158,11 +161,24 @@ def _file(value: object, context: Context | None) -> Path:
     return found
 
 
-def _waveform(value: object, context: Context | None) -> Waveform:
+def _waveform_of(quantity: Column) -> ValueKind:
+    """Return the kind of waveforms of a quantity, stated as the path of a file."""
+
+    def parse(value: object, context: Context | None) -> Waveform:
+        path = _file(value, context)
+        try:
+            return read_waveform(path, name=str(value), quantity=quantity)
+        except ColumnFileError as error:
+            raise RefusedValueError(str(error)) from error
+
+    return ValueKind(parse, "the path of a waveform (.csv)", PATH_SCHEMA)
+
+
+def _wall_curve(value: object, context: Context | None) -> WallCurve:
     path = _file(value, context)
     try:
-        return read_waveform(path, name=str(value))
-    except WaveformError as error:
+        return read_wall_curve(path, name=str(value))
+    except ColumnFileError as error:
         raise RefusedValueError(str(error)) from error
 
 
@@ -171,6 +187,29 @@ def _samples(waveform: Waveform) -> dict[str, list[float]]:
     return {"times": waveform.times.tolist(), "values": waveform.values.tolist()}
 
 
+def _curve_samples(curve: WallCurve) -> dict[str, list[float]]:
+    """Return what a wall curve says, wherever its file lies."""
+    return {"radii": curve.radii.tolist(), "pressures": curve.pressures.tolist()}
+
+
+def _switch(value: object, _context: Context | None) -> bool:
+    if not isinstance(value, bool):
+        raise refused(value, SWITCH)
+    return value
+
+
+def _tolerance(value: object, _context: Context | None) -> float:
+    try:
+        tolerance = parse_ratio(value)
+    except QuantityError as error:
+        raise refused(value, TOLERANCE, str(error)) from error
+    if not 0 < tolerance <= 0.1:
+        raise refused(value, TOLERANCE)
+    return tolerance
+
+
+SWITCH = "true, false"
+TOLERANCE = 'a ratio above 0, at most 0.1, e.g. "0.1 %"'
 PATH_SCHEMA = {"type": "string", "minLength": 1}
 
 Length = Annotated[float, quantity("length", "any", "0 mm")]
@@ -184,18 +223,29 @@ TransitionAngle = Annotated[float, quantity("angle", "positive", "67.5 deg")]
 Time = Annotated[float, quantity("time", "any", "0.2 s")]
 TimeStep = Annotated[float, quantity("time", "positive", "1 ms")]
 Period = Annotated[float, quantity("time", "positive", "0.8 s")]
+Ramp = Annotated[float, quantity("time", "positive", "8 ms")]
 Velocity = Annotated[float, quantity("velocity", "any", "8.4 cm/s")]
+FlowRate = Annotated[float, quantity("flow rate", "any", "5 ml/s")]
 Pressure = Annotated[float, quantity("pressure", "any", "9330 Pa")]
 Modulus = Annotated[float, quantity("pressure", "positive", "0.6 MPa")]
 Density = Annotated[float, quantity("density", "positive", "1060 kg/m^3")]
 Viscosity = Annotated[float, quantity("viscosity", "positive", "0.0035 Pa s")]
 Resistance = Annotated[float, quantity("resistance", "positive", "1.358e9 Pa s/m^3")]
+SeriesResistance = Annotated[float, quantity("resistance", "not negative", "1.358e9 Pa s/m^3")]
+Compliance = Annotated[float, quantity("compliance", "positive", "1e-10 m^3/Pa")]
+PositiveNumber = Annotated[float, number("a positive number", lambda value: 0 < value < math.inf)]
+Tolerance = Annotated[float, ValueKind(_tolerance, TOLERANCE, {"type": ["string", "number"]})]
+Switch = Annotated[bool, ValueKind(_switch, SWITCH, {"type": "boolean"})]
 Words = Annotated[str, text("a text", r"(?s).*\S.*")]
 NAME_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_-]*"
 Name = Annotated[str, text("letters, digits, - and _, e.g. axisymmetric", NAME_PATTERN)]
 ExistingFile = Annotated[Path, ValueKind(_file, "the path of a file", PATH_SCHEMA)]
-WaveformFile = Annotated[
-    Waveform,
-    ValueKind(_waveform, "the path of a waveform (.csv)", PATH_SCHEMA),
-    PlainSerializer(_samples, when_used="json"),
+_SAMPLES = PlainSerializer(_samples, when_used="json")
+VelocityWaveform = Annotated[Waveform, _waveform_of(VELOCITY), _SAMPLES]
+FlowWaveform = Annotated[Waveform, _waveform_of(FLOW_RATE), _SAMPLES]
+PressureWaveform = Annotated[Waveform, _waveform_of(PRESSURE), _SAMPLES]
+WallCurveFile = Annotated[
+    WallCurve,
+    ValueKind(_wall_curve, "the path of a wall curve (.csv)", PATH_SCHEMA),
+    PlainSerializer(_curve_samples, when_used="json"),
 ]

@@ -3,12 +3,25 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from cases.section import keys_by_tag
+from cases.solver_settings import Solver
+from cases.wall import Wall
 from cases.yaml_nodes import Node
 
 # what a section is; stating another one replaces the section, since the old keys do not fit the new kind
 DISCRIMINATORS = MappingProxyType(
-    {"calcification": "pattern", "inlet": "kind", "outlet": "kind", "reference": "kind"}
+    {
+        "wall": "law",
+        "calcification": "pattern",
+        "inlet": "kind",
+        "outlet": "kind",
+        "solver": "scheme",
+        "reference": "kind",
+    }
 )
+# sections whose kinds share most keys; stating another kind drops only the keys that it does not have
+KEYS_OF_KINDS = MappingProxyType({"wall": keys_by_tag(Wall), "solver": keys_by_tag(Solver)})
+Keys = Mapping[str, list[str]]
 NO_DISCRIMINATORS: Mapping[str, str] = MappingProxyType({})
 
 
@@ -16,7 +29,8 @@ def merge_variant(base: Node, override: Node) -> Node:
     """Merge the override of one variant into the base.
 
     Sections merge key by key, anything else is replaced, lists included. A section whose override states
-    another discriminator (`calcification.pattern`, `inlet.kind`, …) is replaced whole.
+    another discriminator (`calcification.pattern`, `inlet.kind`, …) is replaced whole, but of `wall` and
+    `solver` the keys stay that the new `law` or `scheme` has too.
 
     Parameters
     ----------
@@ -37,8 +51,11 @@ def _merge(base: Node, override: Node, discriminators: Mapping[str, str]) -> Nod
     merged = dict(base.value)
     for key, node in override.value.items():
         present = merged.get(key)
-        if present is None or _is_another(present, node, discriminators.get(key)):
+        if present is None:
             merged[key] = node
+        elif _is_another(present, node, discriminators.get(key)):
+            kept = _kept(present, node, discriminators[key], KEYS_OF_KINDS.get(key))
+            merged[key] = _merge(kept, node, NO_DISCRIMINATORS)
         else:
             merged[key] = _merge(present, node, NO_DISCRIMINATORS)
     return Node(merged, override.line, override.key)
@@ -50,3 +67,14 @@ def _is_another(present: Node, stated: Node, discriminator: str | None) -> bool:
         return False
     old, new = present.value.get(discriminator), stated.value.get(discriminator)
     return new is not None and (old is None or old.value != new.value)
+
+
+def _kept(present: Node, stated: Node, discriminator: str, keys: Keys | None) -> Node:
+    """Return what stays of a section of which another kind is stated; misspelt keys do, to be refused."""
+    if keys is None:
+        return Node({}, present.line, present.key)
+    old, new = present.section.get(discriminator), stated.section[discriminator]
+    dropped = set() if old is None else set(keys.get(str(old.value), ()))
+    dropped -= set(keys.get(str(new.value), ()))
+    kept = {key: node for key, node in present.section.items() if key not in dropped}
+    return Node(kept, present.line, present.key)

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cases.errors import WaveformError
+from cases.errors import ColumnFileError
 from cases.waveform_file import read_waveform
 
 HEADER = "t_s,mean_velocity_m_s"
@@ -100,11 +100,11 @@ def test_written_samples_are_read_back(tmp_path_factory, steps, values):
     ],
 )
 def test_what_is_no_closed_waveform_is_refused(read, text, message):
-    with pytest.raises(WaveformError) as caught:
+    with pytest.raises(ColumnFileError) as caught:
         read(text)
     assert str(caught.value) == message
 
 
 def test_a_missing_file_is_refused(tmp_path):
-    with pytest.raises(WaveformError, match=r"none\.csv: No such file"):
+    with pytest.raises(ColumnFileError, match=r"none\.csv: No such file"):
         read_waveform(tmp_path / "none.csv")

@@ -1,0 +1,110 @@
+"""The numerical solution: scheme, grid, time step."""
+
+from typing import Annotated, Literal
+
+from pydantic import Tag, ValidationInfo, field_validator
+
+from cases.section import Section
+from cases.values import PositiveNumber, TimeStep, Tolerance, one_of, refused, whole_number
+
+FEWEST_ROWS = 4
+
+Closure = Literal["average", "maximum", "least_squares"]
+Start = Literal["steady", "rest"]
+Limiter = Literal["van_leer", "superbee", "minmod", "upwind", "lax_wendroff"]
+Coefficients = Literal["corrected", "printed"]
+
+Sections = whole_number("a whole number from 3 on", lambda value: value >= 3)
+Rows = whole_number("1, or a whole number from 4 on", lambda value: value == 1 or value >= FEWEST_ROWS)
+Cycles = whole_number("a whole number from 1 on", lambda value: value >= 1)
+
+
+class SolverSettings(Section):
+    """What both schemes need.
+
+    Attributes
+    ----------
+    scheme : str
+        The numerical scheme.
+    n_x, n_phi : int
+        Number of sections along x and of rows along φ.
+    time_step : float
+        Δt in s, at most the inlet's period.
+    cycles : int
+        Number of cycles; results are taken from the last one.
+    closure : str
+        How the velocity profile closes the equations.
+    start : str
+        ``steady``: from the steady state of the boundary values at t = 0; ``rest``: from blood at rest. Where
+        none is stated, a `Case` sets rest if a boundary has a ramp, or a pressure inlet a non-reflecting
+        outlet.
+    output_interval : float or None
+        Time between saved states in s, at least the time step.
+    """
+
+    scheme: str
+    n_x: Annotated[int, Sections]
+    n_phi: Annotated[int, Rows]
+    time_step: TimeStep
+    cycles: Annotated[int, Cycles]
+    closure: Annotated[Closure, one_of(Closure)]
+    start: Annotated[Start, one_of(Start)] = "steady"
+    output_interval: TimeStep | None = None
+
+    @field_validator("output_interval")
+    @classmethod
+    def _output_interval(cls, interval: float | None, info: ValidationInfo) -> float | None:
+        time_step = info.data.get("time_step")
+        if interval is not None and time_step is not None and interval < time_step:
+            raise refused(f"{interval:g} s", f"at least the time step ({time_step:g} s)")
+        return interval
+
+
+class SemiImplicitSolver(SolverSettings):
+    """The staggered, pressure-implicit scheme.
+
+    Attributes
+    ----------
+    error_tolerance : float or None
+        Relative error of a step that an adaptive time step keeps, in (0, 0.1]; None: a fixed time step.
+    profile_exponent : float or None
+        Fixed exponent γ of the velocity profile, for one row only; None: γ follows from the closure.
+    """
+
+    scheme: Annotated[Literal["semi_implicit"], one_of(Literal["semi_implicit"])]
+    error_tolerance: Tolerance | None = None
+    profile_exponent: PositiveNumber | None = None
+
+    @field_validator("closure")
+    @classmethod
+    def _closure(cls, closure: Closure) -> Closure:
+        if closure != "average":
+            raise refused(closure, "average; with scheme godunov also maximum, least_squares")
+        return closure
+
+    @field_validator("profile_exponent")
+    @classmethod
+    def _profile_exponent(cls, exponent: float | None, info: ValidationInfo) -> float | None:
+        n_phi = info.data.get("n_phi")
+        if exponent is not None and n_phi is not None and n_phi != 1:
+            raise refused(f"{exponent:g}", f"no profile_exponent with n_phi {n_phi}, only with n_phi 1")
+        return exponent
+
+
+class GodunovSolver(SolverSettings):
+    """The split explicit scheme.
+
+    Attributes
+    ----------
+    limiter : str
+        What limits the second-order correction; ``upwind`` leaves it out, ``lax_wendroff`` leaves it whole.
+    coefficients : str
+        ``corrected``, or as ``printed`` in the thesis.
+    """
+
+    scheme: Annotated[Literal["godunov"], one_of(Literal["godunov"])]
+    limiter: Annotated[Limiter, one_of(Limiter)] = "van_leer"
+    coefficients: Annotated[Coefficients, one_of(Coefficients)] = "corrected"
+
+
+Solver = Annotated[SemiImplicitSolver, Tag("semi_implicit")] | Annotated[GodunovSolver, Tag("godunov")]
