@@ -40,6 +40,12 @@ class WallCollapse(RunFailure):
     reason = "the lumen collapsed (radius not positive)"
 
 
+class BeyondWallTable(RunFailure):
+    """A pressure lies beyond the range in which the wall law is known or stable."""
+
+    reason = "the pressure left the range in which the wall law is known"
+
+
 class NotConverged(RunFailure):
     """The iteration of one implicit step did not converge."""
 

@@ -13,7 +13,8 @@ from cases.schema import (
 )
 from solver.calcification import Patch, calcified_stiffness, scaled_distance
 from solver.grid import Grid
-from solver.model import Model, ResistanceOutlet
+from solver.boundary import Inlet, ResistanceOutlet
+from solver.model import Model
 from solver.wall import wall_stiffness
 from solver.waveform import Waveform, constant
 
@@ -90,7 +91,7 @@ def model_of(case: Case) -> Model:
         viscosity=case.blood.viscosity,
         reference_pressure=case.wall.reference_pressure,
         stiffness=stiffness_of(case),
-        inlet_velocity=inlet_waveform(case),
+        inlet=Inlet(case.inlet.kind, inlet_waveform(case)),
         outlet=ResistanceOutlet(case.outlet.resistance, case.outlet.offset, case.outlet.flow),
     )
 

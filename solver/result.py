@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 from cases.fields import FIELDS
 from solver.errors import NoAdmissibleProfile
 from solver.profiles import continuity_exponent
-from solver.schemes.semi_implicit import REST_VELOCITY
+from solver.schemes.layout import REST_VELOCITY
 from solver.simulate import Trajectory
-from solver.wall import pressure_from_area
 
 CONVENTIONS = "CF-1.11"
 
@@ -46,6 +45,9 @@ def profile_exponent(trajectory: Trajectory, velocity: NDArray[np.float64]) -> N
     NoAdmissibleProfile
         Where a cell has none.
     """
+    fixed = trajectory.model.fixed_exponent
+    if fixed is not None:
+        return np.full(velocity.shape, fixed)
     exponent = continuity_exponent(velocity, REST_VELOCITY)
     missing = np.argwhere(~np.isfinite(exponent))
     if missing.size:
@@ -70,7 +72,7 @@ def to_dataset(trajectory: Trajectory) -> xr.Dataset:
         Where a cell has no exponent γ > 0.
     """
     model, grid = trajectory.model, trajectory.model.grid
-    pressure = pressure_from_area(trajectory.area, model.stiffness, model.radius, model.reference_pressure)
+    pressure = trajectory.pressure
     flow = cell_flow(trajectory.flow)
     velocity = flow / trajectory.area
     sector = 0.5 * grid.dphi * flow

@@ -1,29 +1,43 @@
-"""Run the semi-implicit scheme through time and keep the states that were asked for."""
+"""Run the semi-implicit scheme through time, from one wanted instant to the next."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from solver.errors import ModelError, NoAdmissibleProfile, NotConverged, NotFinite, RunFailure, WallCollapse
-from solver.model import Model, State, uniform_state
-from solver.schemes import semi_implicit as scheme
+from solver.errors import ModelError
+from solver.model import Model, State
+from solver.steady import steady_state
+from solver.stepper import Stepper
 
 DAMPING_RATE = 20.0  # 1/s: θ = ½ + rate·Δt damps the pulse wave and stays second order in time
-TOLERANCE = 1e-9  # relative change of P and Q at which a step's iteration ends
-MAX_SWEEPS = 60
-
-_FAILURES: dict[int, type[RunFailure]] = {
-    scheme.NO_ADMISSIBLE_PROFILE: NoAdmissibleProfile,
-    scheme.WALL_COLLAPSE: WallCollapse,
-    scheme.NOT_CONVERGED: NotConverged,
-    scheme.NOT_FINITE: NotFinite,
-}
-_CELL_FAILURES = (scheme.NO_ADMISSIBLE_PROFILE, scheme.WALL_COLLAPSE)
 
 Progress = Callable[[float, float], None]
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A state that was asked for, and how the run came to it.
+
+    Attributes
+    ----------
+    state : State
+        An independent copy.
+    mass_defect : float
+        Inflow − outflow − change of volume since the state before, over the inflow.
+    steps, sweeps : int
+        Time steps taken so far, and sweeps of their iterations in all.
+    longest_step : float
+        Longest Δt since the state before, s.
+    """
+
+    state: State
+    mass_defect: float
+    steps: int
+    sweeps: int
+    longest_step: float
 
 
 @dataclass(frozen=True)
@@ -36,8 +50,8 @@ class Trajectory:
         What was run.
     times : ndarray (n_times,)
         s.
-    area : ndarray (n_times, n_x, n_phi)
-        A = R², m².
+    area, pressure : ndarray (n_times, n_x, n_phi)
+        A = R², m², and P, Pa.
     flow : ndarray (n_times, n_x + 1, n_phi)
         Q = uR² on faces, m³/s.
     mass_defect : ndarray (n_times,)
@@ -51,6 +65,7 @@ class Trajectory:
     model: Model
     times: NDArray[np.float64]
     area: NDArray[np.float64]
+    pressure: NDArray[np.float64]
     flow: NDArray[np.float64]
     mass_defect: NDArray[np.float64]
     steps: int
@@ -58,99 +73,103 @@ class Trajectory:
     longest_step: float
 
 
-@dataclass
-class Stepper:
-    """A state and what the kernels need to move it."""
-
-    model: Model
-    state: State
-    steps: int = 0
-    sweeps: int = 0
-    _parameters: scheme.Parameters = field(init=False)
-    _workspace: scheme.Workspace = field(init=False)
-
-    def __post_init__(self) -> None:
-        self._parameters = parameters(self.model)
-        self._workspace = scheme.workspace(self.model.grid.n_x, self.model.grid.n_phi)
-
-    def advance(self, velocities: NDArray[np.float64], time_step: float, theta: float) -> float:
-        """Take one step of ``time_step`` (s) per inlet velocity (m/s, at the step's end).
-
-        Returns
-        -------
-        float
-            Mass defect over these steps: inflow − outflow − change of volume, over the inflow (0 at rest).
-
-        Raises
-        ------
-        RunFailure
-            NoAdmissibleProfile, WallCollapse, NotConverged or NotFinite, with time and cell.
-        """
-        grid, state = self.model.grid, self.state
-        stepping = scheme.Stepping(time_step, theta, TOLERANCE, MAX_SWEEPS)
-        before = lumen_volume(self.model, state.area)
-        self._workspace.exchanged[:] = 0.0
-        status, i, j, steps, sweeps = scheme.advance(
-            self._parameters, stepping, self._workspace, state.area, state.flow, velocities
-        )
-        state.time += steps * time_step
-        self.steps += steps
-        self.sweeps += sweeps
-        if status != scheme.OK:
-            cell = (i + 1, j + 1) if status in _CELL_FAILURES else (0, 0)
-            raise _FAILURES[status](state.time + time_step, *cell)
-        if not (np.all(np.isfinite(state.area)) and np.all(np.isfinite(state.flow))):
-            raise NotFinite(state.time, 0, 0)
-        inflow, outflow = self._workspace.exchanged
-        change = lumen_volume(self.model, state.area) - before
-        rest = scheme.REST_VELOCITY * grid.dphi * grid.n_phi * self.model.radius**2 * time_step
-        return float((inflow - outflow - change) / max(abs(inflow), rest))
-
-
-def parameters(model: Model) -> scheme.Parameters:
-    """Parameters of the kernels from a model."""
-    return scheme.Parameters(
-        dx=model.grid.dx,
-        dphi=model.grid.dphi,
-        radius=model.radius,
-        density=model.density,
-        kinematic_viscosity=model.viscosity / model.density,
-        reference_pressure=model.reference_pressure,
-        compliance=np.ascontiguousarray(model.radius**2 / model.stiffness),
-        resistance=model.outlet.resistance,
-        offset=model.outlet.offset,
-        outlet_by_section=model.outlet.flow == "section",
-    )
-
-
-def lumen_volume(model: Model, area: NDArray[np.float64]) -> float:
-    """Volume of the lumen, ∫∫ ½A dφ dx, m³."""
-    return float(0.5 * model.grid.dphi * model.grid.dx * np.sum(area))
-
-
-def steady_state(model: Model, velocity: float, start: State | None = None) -> State:
-    """March to the state that a constant inlet velocity (m/s) leads to.
-
-    Fully implicit steps that grow from 1 ms, until nothing changes any more.
+def checked_times(output_times: ArrayLike, time_step: float) -> NDArray[np.float64]:
+    """Output times as an array.
 
     Raises
     ------
-    RunFailure
-        NotConverged when 400 steps do not suffice, or what :meth:`Stepper.advance` raises.
+    ModelError
+        If they are not finite or do not increase, or Δt is not positive.
     """
-    guess = model.outlet.offset + model.outlet.resistance * velocity * np.pi * model.radius**2
-    stepper = Stepper(model, start.copy() if start else uniform_state(model, guess, velocity))
-    time_step = 1e-3
-    for _ in range(400):
-        area, flow = stepper.state.area.copy(), stepper.state.flow.copy()
-        stepper.advance(np.array([velocity]), time_step, theta=1.0)
-        area_change = np.max(np.abs(stepper.state.area - area)) / np.max(area)
-        flow_change = np.max(np.abs(stepper.state.flow - flow))
-        largest = np.max(np.abs(flow))
-        if area_change < 1e-13 and flow_change <= 1e-12 * largest:
-            return State(0.0, stepper.state.area, stepper.state.flow)
-        time_step = min(1.5 * time_step, 0.1)
-    raise NotConverged(stepper.state.time, 0, 0, "no steady state within 400 steps")
+    times = np.asarray(output_times, dtype=float)
+    if times.ndim != 1 or times.size < 1 or not np.all(np.isfinite(times)) or not np.all(np.diff(times) > 0):
+        raise ModelError("output times must be one or more, finite, and increase")
+    if not (np.isfinite(time_step) and time_step > 0):
+        raise ModelError(f"time step = {time_step} s; allowed: positive")
+    return times
+
+
+def implicitness(time_step: float) -> float:
+    """θ = ½ + rate·Δt, at most 1."""
+    return 0.5 + min(0.5, DAMPING_RATE * time_step)
+
+
+def snapshots(
+    model: Model,
+    output_times: ArrayLike,
+    time_step: float,
+    initial: State | None = None,
+    error_tolerance: float | None = None,
+) -> Iterator[Snapshot]:
+    """Yield the state at each output time, the first included; a step ends on each.
+
+    Parameters are those of :func:`simulate`. A run continued from any snapshot's state gives the same
+    bits as one that was not interrupted.
+    """
+    times = checked_times(output_times, time_step)
+    start = initial or steady_state(model, float(model.inlet.signal(times[0])))
+    start.time = float(times[0])
+    stepper = Stepper(model, start)
+    yield Snapshot(stepper.state(), 0.0, 0, 0, 0.0)
+    suggested = time_step
+    for begin, end in pairwise(times):
+        if error_tolerance is None:
+            count = max(1, int(np.ceil((end - begin) / time_step * (1 - 1e-12))))
+            longest = (end - begin) / count
+            defect = stepper.advance_through(begin, longest, count, implicitness(longest))
+        else:
+            defect, longest, suggested = _adaptive(stepper, begin, end, time_step, suggested, error_tolerance)
+        stepper.time = float(end)
+        yield Snapshot(stepper.state(), defect, stepper.steps, stepper.sweeps, longest)
+
+
+def _adaptive(
+    stepper: Stepper, begin: float, end: float, largest: float, suggested: float, tolerance: float
+) -> tuple[float, float, float]:
+    """Go from begin to end with the local error of each step below ``tolerance``.
+
+    One step of Δt is compared with two of Δt/2 (step doubling); the finer result is kept. The scheme is of
+    second order, so a third of their difference estimates its error.
+
+    Returns
+    -------
+    defect, longest, suggested : float
+        Mass defect, longest Δt taken and Δt to try next, s.
+    """
+    time, longest, step, volume_defect = begin, 0.0, min(suggested, largest), 0.0
+    while time < end:
+        remaining = end - time
+        step = min(step, largest, remaining)
+        if remaining - step < 0.01 * step:
+            step = remaining
+        start = stepper.state()
+        stepper.advance_through(time, step, 1, implicitness(step))
+        coarse = stepper.state()
+        stepper.restore(start)
+        defect = stepper.advance_through(time, 0.5 * step, 2, implicitness(0.5 * step))
+        error = _difference(coarse, stepper.state()) / 3
+        if error > tolerance and step > 1e-6 * largest:
+            stepper.restore(start)
+        else:
+            time += step
+            stepper.time = time
+            longest = max(longest, 0.5 * step)
+            volume_defect += defect
+            suggested = step
+        growth = 0.9 * (tolerance / error) ** (1 / 3) if error > 0 else 2.0
+        step *= min(2.0, max(0.2, growth))
+        if step > suggested:
+            suggested = step
+    return volume_defect, longest, suggested
+
+
+def _difference(one: State, other: State) -> float:
+    """Root-mean-square difference of flow and area, relative."""
+    parts = ((one.flow, other.flow), (one.area, other.area))
+    return max(
+        float(np.sqrt(np.mean((a - b) ** 2)) / max(np.sqrt(np.mean(b**2)), np.finfo(float).tiny))
+        for a, b in parts
+    )
 
 
 def simulate(
@@ -159,6 +178,7 @@ def simulate(
     time_step: float,
     initial: State | None = None,
     progress: Progress | None = None,
+    error_tolerance: float | None = None,
 ) -> Trajectory:
     """Run from ``initial`` through the output times, each of which a step ends on.
 
@@ -171,9 +191,11 @@ def simulate(
     time_step : float
         Largest Δt, s; each interval between output times is cut into equal steps not longer than it.
     initial : State, optional
-        Default: the steady state of the inlet velocity at the first output time.
+        Default: the steady state of the inlet's value at the first output time.
     progress : callable, optional
         Called with (time reached, last time) after each interval.
+    error_tolerance : float, optional
+        Local error of a step, relative, below which Δt is chosen; default: no error control.
 
     Returns
     -------
@@ -182,36 +204,29 @@ def simulate(
     Raises
     ------
     ModelError
-        Times that do not increase, or a Δt that is not positive.
+        Times that do not increase, a Δt that is not positive, or an initial state of another grid.
     RunFailure
-        As :meth:`Stepper.advance`.
+        NoAdmissibleProfile, WallCollapse, BeyondWallTable, NotConverged or NotFinite, with time and cell.
     """
-    times = np.asarray(output_times, dtype=float)
-    if times.ndim != 1 or times.size < 1 or not np.all(np.diff(times) > 0):
-        raise ModelError("output times must be one or more and increase")
-    if not (np.isfinite(time_step) and time_step > 0):
-        raise ModelError(f"time step = {time_step} s; allowed: positive")
-    first = initial or steady_state(model, float(model.inlet_velocity(times[0])))
-    stepper = Stepper(model, State(float(times[0]), first.area.copy(), first.flow.copy()))
-    states = [stepper.state.copy()]
-    defects, longest = [0.0], 0.0
-    for begin, end in pairwise(times):
-        count = max(1, int(np.ceil((end - begin) / time_step * (1 - 1e-12))))
-        step = (end - begin) / count
-        velocities = model.inlet_velocity(begin + step * np.arange(1, count + 1))
-        defects.append(stepper.advance(velocities, step, 0.5 + min(0.5, DAMPING_RATE * step)))
-        stepper.state.time = float(end)
-        longest = max(longest, step)
-        states.append(stepper.state.copy())
+    times = checked_times(output_times, time_step)
+    taken = []
+    for snapshot in snapshots(model, times, time_step, initial, error_tolerance):
+        taken.append(snapshot)
         if progress:
-            progress(float(end), float(times[-1]))
+            progress(snapshot.state.time, float(times[-1]))
+    return collect(model, taken)
+
+
+def collect(model: Model, taken: list[Snapshot]) -> Trajectory:
+    """Join snapshots to a trajectory."""
     return Trajectory(
         model=model,
-        times=times,
-        area=np.array([state.area for state in states]),
-        flow=np.array([state.flow for state in states]),
-        mass_defect=np.array(defects),
-        steps=stepper.steps,
-        sweeps=stepper.sweeps,
-        longest_step=longest,
+        times=np.array([snapshot.state.time for snapshot in taken]),
+        area=np.array([snapshot.state.area for snapshot in taken]),
+        pressure=np.array([snapshot.state.pressure for snapshot in taken]),
+        flow=np.array([snapshot.state.flow for snapshot in taken]),
+        mass_defect=np.array([snapshot.mass_defect for snapshot in taken]),
+        steps=taken[-1].steps,
+        sweeps=taken[-1].sweeps,
+        longest_step=max(snapshot.longest_step for snapshot in taken),
     )

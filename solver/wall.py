@@ -87,6 +87,14 @@ def pressure_from_area(
 def area_from_pressure(
     pressure: ArrayLike, stiffness: NDArray[np.float64], radius: float, reference_pressure: float
 ) -> NDArray[np.float64]:
-    """Return A = R² = (R₀ + (P − P₀) R₀²/β)², m²: the inverse of :func:`pressure_from_area`."""
+    """Return A = R² = (R₀ + (P − P₀) R₀²/β)², m²: the inverse of :func:`pressure_from_area`.
+
+    Raises
+    ------
+    ModelError
+        Where R would not be positive.
+    """
     wall_radius = radius + (np.asarray(pressure) - reference_pressure) * radius**2 / stiffness
+    if not np.all(wall_radius > 0):
+        raise ModelError(f"the lumen collapses at P = {np.min(pressure):g} Pa")
     return np.asarray(wall_radius**2)

@@ -1,12 +1,33 @@
-"""A quantity prescribed over one cardiac cycle and repeated."""
+"""Quantities prescribed over time: tables, Fourier series, constants and ramps.
+
+Each is a callable of time (s, array_like) that returns SI values and has a ``period`` (s).
+"""
 
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
 from solver.errors import ModelError
+
+CLOSURE = 1e-9  # share of the largest value by which a cycle's ends may differ
+
+Floats = NDArray[np.float64]
+
+
+class Signal(Protocol):
+    """A periodic quantity."""
+
+    @property
+    def period(self) -> float:
+        """Length of the cycle, s."""
+        ...
+
+    def __call__(self, time: ArrayLike) -> Floats:
+        """Value at ``time`` (s), SI, of the shape of ``time``."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -21,25 +42,95 @@ class Waveform:
         Values in SI; the last equals the first.
     """
 
-    times: NDArray[np.float64]
-    values: NDArray[np.float64]
+    times: Floats
+    values: Floats
     _interpolant: PchipInterpolator = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        if len(self.times) < 2 or self.times[0] != 0 or not np.all(np.diff(self.times) > 0):
-            raise ModelError("a waveform needs two or more times that start at 0 and increase")
-        if not np.all(np.isfinite(self.values)):
+        times, values = np.asarray(self.times, dtype=float), np.asarray(self.values, dtype=float)
+        if times.ndim != 1 or times.shape != values.shape or times.size < 2:
+            raise ModelError("a waveform needs two or more times and as many values")
+        if not (np.all(np.isfinite(times)) and times[0] == 0 and np.all(np.diff(times) > 0)):
+            raise ModelError("a waveform's times must be finite, start at 0 and increase")
+        if not np.all(np.isfinite(values)):
             raise ModelError("a waveform needs finite values")
-        object.__setattr__(self, "_interpolant", PchipInterpolator(self.times, self.values))
+        if abs(values[-1] - values[0]) > CLOSURE * np.max(np.abs(values)):
+            raise ModelError(f"a waveform must close: first value {values[0]:g}, last value {values[-1]:g}")
+        object.__setattr__(self, "_interpolant", PchipInterpolator(times, values))
 
     @property
     def period(self) -> float:
         """Length of the cycle, s."""
         return float(self.times[-1])
 
-    def __call__(self, time: ArrayLike) -> NDArray[np.float64]:
+    def __call__(self, time: ArrayLike) -> Floats:
         """Value at ``time`` (s), SI, of the shape of ``time``."""
         return np.asarray(self._interpolant(np.mod(time, self.period)))
+
+
+@dataclass(frozen=True)
+class FourierSeries:
+    """Mean + Σ_k (cosine_k cos kωt + sine_k sin kωt), ω = 2π/period.
+
+    Attributes
+    ----------
+    period : float
+        s.
+    mean : float
+        SI.
+    cosines, sines : tuple of float
+        Coefficients of the first, second, … harmonic, SI.
+    """
+
+    period: float
+    mean: float
+    cosines: tuple[float, ...]
+    sines: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.period) and self.period > 0):
+            raise ModelError(f"period = {self.period} s; allowed: positive")
+        if len(self.cosines) != len(self.sines):
+            raise ModelError("a Fourier series needs as many cosine as sine coefficients")
+        if not np.all(np.isfinite([self.mean, *self.cosines, *self.sines])):
+            raise ModelError("a Fourier series needs finite coefficients")
+
+    def __call__(self, time: ArrayLike) -> Floats:
+        """Value at ``time`` (s), SI, of the shape of ``time``."""
+        phase = 2 * np.pi / self.period * np.asarray(time, dtype=float)[..., None]
+        harmonics = np.arange(1, len(self.cosines) + 1)
+        cosines = np.cos(phase * harmonics) @ np.array(self.cosines)
+        return np.asarray(self.mean + cosines + np.sin(phase * harmonics) @ np.array(self.sines))
+
+
+def load_curve(time: ArrayLike, begin: float, end: float, low: float, high: float) -> Floats:
+    """Half-cosine from ``low`` to ``high`` between two times, constant outside (2.3.1).
+
+    l(t) = y₀ + (y₁ − y₀)(½ − ½ cos π(t − t₀)/(t₁ − t₀)); times in s.
+    """
+    share = np.clip((np.asarray(time, dtype=float) - begin) / (end - begin), 0.0, 1.0)
+    return np.asarray(low + (high - low) * (0.5 - 0.5 * np.cos(np.pi * share)))
+
+
+@dataclass(frozen=True)
+class Ramped:
+    """A signal that grows from 0 by the load curve over the first ``duration`` seconds."""
+
+    signal: Signal
+    duration: float
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.duration) and self.duration > 0):
+            raise ModelError(f"ramp = {self.duration} s; allowed: positive")
+
+    @property
+    def period(self) -> float:
+        """Length of the signal's cycle, s."""
+        return self.signal.period
+
+    def __call__(self, time: ArrayLike) -> Floats:
+        """Value at ``time`` (s), SI, of the shape of ``time``."""
+        return np.asarray(self.signal(time) * load_curve(time, 0.0, self.duration, 0.0, 1.0))
 
 
 def constant(value: float, period: float) -> Waveform:
@@ -47,16 +138,21 @@ def constant(value: float, period: float) -> Waveform:
     return Waveform(np.array([0.0, period]), np.array([value, value]))
 
 
-def local_minima(waveform: Waveform, samples: int = 4000) -> NDArray[np.float64]:
-    """Find the times of the local minima that follow the maximum of one cycle, in order, s.
+def local_minima(signal: Signal, samples: int = 4000) -> Floats:
+    """Find the times of the local minima of one cycle in the order in which they follow its maximum, s.
 
-    A flat minimum counts once, at its first instant.
+    A flat minimum counts once, at its first instant; a flat stretch on the way down is none.
     """
-    times = np.linspace(0, waveform.period, samples + 1)
-    values = waveform(times[:-1])
-    values = np.append(values, values[0])
+    times = np.arange(samples) / samples * signal.period
+    values = signal(times)
     start = int(np.argmax(values))
-    falling = np.diff(values) < 0
-    rising_or_flat = ~falling
-    turns = [k for k in range(start + 1, samples) if falling[k - 1] and rising_or_flat[k]]
-    return times[turns]
+    circle = np.append(np.roll(values, -start), values[start])
+    change = np.sign(np.diff(circle))
+    turns, falling_since = [], None
+    for k, direction in enumerate(change):
+        if direction < 0:
+            falling_since = k + 1
+        elif direction > 0 and falling_since is not None:
+            turns.append(falling_since)
+            falling_since = None
+    return times[[(start + k) % samples for k in turns]]

@@ -11,433 +11,208 @@ iterate (marked ¯),
     (Q' − Q)/Δt + ∂_x(αQ²/A)¯ + (Ā/ρ) ∂_x[θP' + (1−θ)P] = S̄ [θQ' + (1−θ)Q]             (2.2.34)
     S = h(A, γ) − 2(γ+2)(μ/ρ)/A,   γ = 2u/(D − u),   D = 2 mean_φ(u)                   (2.2.35)
 
-by Newton's method in P on the mass balance, which is tridiagonal in each row.
+by Newton's method in P on the mass balance, which is tridiagonal in each row. The ends are half cells,
+see :mod:`solver.schemes.ends`.
 """
-
-from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-OK = 0
-NO_ADMISSIBLE_PROFILE = 1
-WALL_COLLAPSE = 2
-NOT_CONVERGED = 3
-NOT_FINITE = 4
-
-REST_VELOCITY = 1e-9  # m/s: a section slower than this is at rest and has γ = 2
-
-Array = NDArray[np.float64]
-
-
-class Parameters(NamedTuple):
-    """Constants of a run (SI).
-
-    ``compliance`` is dR/dP = R₀²/β, (n_x, n_phi), m/Pa; ``kinematic_viscosity`` μ/ρ, m²/s.
-    """
-
-    dx: float
-    dphi: float
-    radius: float
-    density: float
-    kinematic_viscosity: float
-    reference_pressure: float
-    compliance: Array
-    resistance: float
-    offset: float
-    outlet_by_section: bool
-
-
-class Stepping(NamedTuple):
-    """Δt (s), implicitness θ in [½, 1], relative tolerance and most sweeps of a step's iteration."""
-
-    time_step: float
-    theta: float
-    tolerance: float
-    max_sweeps: int
-
-
-class Workspace(NamedTuple):
-    """Arrays of one run; (n_x, n_phi) at cells, (n_x + 1, n_phi) on faces, (n_phi,) per row."""
-
-    pressure: Array  # cells: P at the old time
-    iterate_pressure: Array  # cells: P of the iterate
-    iterate_area: Array  # cells
-    area_slope: Array  # cells: dA/dP of the iterate
-    mean_area: Array  # cells: θ-weighted
-    momentum_flux: Array  # cells: αQ²/A
-    correction: Array  # cells: P' − P of the iterate
-    diagonal: Array  # cells: pivots of the elimination
-    iterate_flow: Array  # faces
-    alpha: Array  # faces
-    source: Array  # faces: S
-    explicit_flow: Array  # faces: G at the iterate's pressure
-    conductance: Array  # faces: κ
-    outlet_pressure: Array  # rows: old time
-    iterate_outlet_pressure: Array  # rows
-    outlet_area: Array  # rows: θ-weighted
-    face_area: Array  # n_phi + 2: one face, with periodic ghosts
-    inverse_exponent: Array  # n_phi + 2: 1/γ of one face, with periodic ghosts
-    inverse_area: Array  # rows: 1/A of one face
-    face_velocity: Array  # rows: u of one face
-    previous_pressure: Array  # cells: P one step earlier, for the first iterate
-    previous_flow: Array  # faces
-    exchanged: Array  # volumes that passed inlet and outlet since last reset, m³
-
-
-def workspace(n_x: int, n_phi: int) -> Workspace:
-    """Allocate the arrays of a run."""
-    cells, faces, rows = (n_x, n_phi), (n_x + 1, n_phi), (n_phi,)
-    shapes = [cells] * 8 + [faces] * 5 + [rows] * 3 + [(n_phi + 2,)] * 2 + [rows] * 2 + [cells, faces, (2,)]
-    return Workspace(*(np.zeros(shape) for shape in shapes))
-
-
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc"})
-def _mean(values: Array) -> float:
-    total = 0.0
-    for j in range(values.size):
-        total += values[j]
-    return total / values.size
+from solver.schemes.ends import (
+    INLET,
+    OUTLET,
+    close_outlet,
+    end_areas,
+    face_area,
+    half_cell,
+    inlet_flow,
+    inlet_slopes,
+    old_end_areas,
+    outlet_law,
+    update_reservoir,
+)
+from solver.schemes.layout import (
+    NO_ADMISSIBLE_PROFILE,
+    NOT_CONVERGED,
+    NOT_FINITE,
+    OK,
+    PRESSURE_INLET,
+    REST_VELOCITY,
+    Array,
+    Fields,
+    Parameters,
+    Stepping,
+    Workspace,
+)
+from solver.schemes.profile import (
+    all_admissible,
+    at_rest,
+    closure_source,
+    fixed_source,
+    inadmissible_row,
+    mean,
+    wrap,
+)
+from solver.schemes.walls import wall_area
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _all_admissible(velocity: Array, axis_velocity: float) -> bool:
-    """Whether 0 < u/D < 1 in every row, so that γ = 2u/(D − u) is positive."""
-    d = abs(axis_velocity)
-    sign = 1.0 if axis_velocity > 0.0 else -1.0
-    count = 0
+def _mean_areas(ws: Workspace, area: Array, theta: float) -> None:
+    for i in range(area.shape[0]):
+        old, new, weighted = area[i], ws.iterate_area[i], ws.mean_area[i]
+        for j in range(old.size):
+            weighted[j] = (1.0 - theta) * old[j] + theta * new[j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _face_velocity(old: Array, new: Array, theta: float, area: Array, row: Array) -> None:
+    """1/A and u = Q/A of one face at the θ-weighted mean, into the two rows of ``row``."""
+    inverse_area, velocity = row[0], row[1]
     for j in range(velocity.size):
-        u = sign * velocity[j]
-        count += (u > 0.0) & (u < d)
-    return count == velocity.size
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _at_rest(velocity: Array) -> bool:
-    """Whether every row is slower than the rest velocity."""
-    count = 0
-    for j in range(velocity.size):
-        count += abs(velocity[j]) < REST_VELOCITY
-    return count == velocity.size
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _wrap(row: Array) -> None:
-    """Fill the two ghosts of a periodic row."""
-    row[0] = row[row.size - 2]
-    row[row.size - 1] = row[1]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _face_area(f: int, mean: Array, outlet_area: Array, area: Array) -> None:
-    """Mean area of face f with ghosts: the inlet's extrapolated, the outlet's from its pressure."""
-    n_x, n_phi = mean.shape
-    inner = area[1:-1]
-    if f == n_x:
-        inner[:] = outlet_area
-    else:
-        left, right = mean[max(f - 1, 0)], mean[f]
-        second = mean[1]
-        for j in range(n_phi):
-            inner[j] = 0.5 * (left[j] + right[j])
-        if f == 0:
-            for j in range(n_phi):
-                inner[j] += 0.5 * (right[j] - second[j])
-    _wrap(area)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _face_velocity(
-    old: Array, new: Array, theta: float, area: Array, inverse_area: Array, velocity: Array
-) -> None:
-    """Mean velocity u = Q/A of one face at the θ-weighted mean."""
-    inner = area[1:-1]
-    for j in range(velocity.size):
-        inverse_area[j] = 1.0 / inner[j]
+        inverse_area[j] = 1.0 / area[j]
         velocity[j] = ((1.0 - theta) * old[j] + theta * new[j]) * inverse_area[j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _profile_source(
-    alpha: Array,
-    source: Array,
-    area: Array,
-    inverse_area: Array,
-    velocity: Array,
-    axis_velocity: float,
-    inverse_exponent: Array,
-    nu: float,
-    dphi: float,
-) -> None:
-    """α and S of one face from u and D: γ = 2u/(D−u), h as in model.md with 1/γ differenced.
-
-    With g = 1/γ = (D−u)/(2u) the last two terms of h are −∂²_φ g; γ + 2 = 2D/(D−u) and
-    (γ+2)/γ = D/u.
-    """
-    d = axis_velocity
-    inverse_inner = inverse_exponent[1:-1]
-    for j in range(velocity.size):
-        inverse_inner[j] = 0.5 * d / velocity[j] - 0.5
-    _wrap(inverse_exponent)
-    first = 0.5 / dphi
-    second = 1.0 / (dphi * dphi)
-    area_before, area_here, area_after = area[:-2], area[1:-1], area[2:]
-    g_before, g_here, g_after = inverse_exponent[:-2], inverse_inner, inverse_exponent[2:]
-    for j in range(velocity.size):
-        u = velocity[j]
-        both = d / ((d - u) * (d + u))
-        alpha[j] = 2.0 * both * (d - u)
-        half_gamma_plus_one = both * (d + u)
-        slope = (area_after[j] - area_before[j]) * first * inverse_area[j]
-        bend = (area_after[j] - 2.0 * area_here[j] + area_before[j]) * second * inverse_area[j]
-        g_bend = (g_after[j] - 2.0 * g_here[j] + g_before[j]) * second
-        bracket = 0.5 * bend - 0.5 * half_gamma_plus_one * slope * slope - g_bend
-        source[j] = nu * inverse_area[j] * ((2.0 + 4.0 * g_here[j]) * bracket - 4.0 * half_gamma_plus_one)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _rest_source(alpha: Array, source: Array, inverse_area: Array, nu: float) -> None:
-    """α and S of a face at rest: γ = 2, friction only."""
-    for j in range(alpha.size):
-        alpha[j] = 4.0 / 3.0
-        source[j] = -8.0 * nu * inverse_area[j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _inadmissible_row(velocity: Array, axis_velocity: float) -> int:
-    """First row with |u| ≥ |D| or u against D."""
-    for j in range(velocity.size):
-        if not 0.0 < velocity[j] / axis_velocity < 1.0:
-            return j
-    return 0
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _coefficients(p: Parameters, ws: Workspace, flow: Array, theta: float) -> tuple[int, int, int]:
-    """α and S on every face at the θ-weighted mean; the failure (status, i, j) if there is one."""
+def _coefficients(p: Parameters, s: Stepping, ws: Workspace, flow: Array) -> tuple[int, int, int]:
+    """α and Δt S on every face at the θ-weighted mean; the failure (status, i, j) if there is one."""
     n_x = ws.mean_area.shape[0]
-    velocity = ws.face_velocity
-    nu = p.kinematic_viscosity
+    area, inverse_exponent = ws.ghosted[0], ws.ghosted[1]
+    inverse_area, velocity = ws.row[0], ws.row[1]
+    scale = s.time_step * p.kinematic_viscosity
     for f in range(n_x + 1):
-        area, inverse_area = ws.face_area, ws.inverse_area
-        _face_area(f, ws.mean_area, ws.outlet_area, area)
-        _face_velocity(flow[f], ws.iterate_flow[f], theta, area, inverse_area, velocity)
-        d = 2.0 * _mean(velocity)
-        if _at_rest(velocity):
-            _rest_source(ws.alpha[f], ws.source[f], inverse_area, nu)
+        face_area(ws.mean_area, ws.end_area, p.inlet_kind, f, area[1:-1])
+        _face_velocity(flow[f], ws.iterate_flow[f], s.theta, area[1:-1], ws.row)
+        alpha, damping = ws.alpha[f], ws.damping[f]
+        if p.fixed_exponent > 0.0:
+            fixed_source(alpha, damping, inverse_area, p.fixed_exponent, scale)
             continue
-        if not _all_admissible(velocity, d):
-            return NO_ADMISSIBLE_PROFILE, min(f, n_x - 1), _inadmissible_row(velocity, d)
-        _profile_source(
-            ws.alpha[f], ws.source[f], area, inverse_area, velocity, d, ws.inverse_exponent, nu, p.dphi
-        )
+        d = 2.0 * mean(velocity)
+        if all_admissible(velocity, d):
+            wrap(area)
+            closure_source(alpha, damping, area, inverse_area, velocity, d, inverse_exponent, scale, p.dphi)
+        elif at_rest(velocity):
+            fixed_source(alpha, damping, inverse_area, 2.0, scale)
+        else:
+            return NO_ADMISSIBLE_PROFILE, min(f, n_x - 1), inadmissible_row(velocity, d)
     return OK, 0, 0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _wall(
-    p: Parameters, ws: Workspace, area: Array, outlet_area: Array, theta: float
-) -> tuple[int, int, int]:
-    """A(P) and dA/dP of the iterate, and θ-weighted means; the failing cell if the lumen collapses."""
-    n_x, n_phi = area.shape
-    for i in range(n_x):
-        for j in range(n_phi):
-            radius = p.radius + (ws.iterate_pressure[i, j] - p.reference_pressure) * p.compliance[i, j]
-            ws.area_slope[i, j] = 2.0 * radius * p.compliance[i, j]
-            ws.iterate_area[i, j] = radius * radius
-            ws.mean_area[i, j] = (1.0 - theta) * area[i, j] + theta * radius * radius
-        for j in range(n_phi):
-            if not ws.area_slope[i, j] > 0.0:
-                return WALL_COLLAPSE, i, j
-    for j in range(n_phi):
-        pressure = ws.iterate_outlet_pressure[j] - p.reference_pressure
-        radius = p.radius + pressure * p.compliance[n_x - 1, j]
-        if not radius > 0.0:
-            return WALL_COLLAPSE, n_x - 1, j
-        ws.outlet_area[j] = (1.0 - theta) * outlet_area[j] + theta * radius * radius
-    return OK, 0, 0
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _momentum_flux(ws: Workspace, flow: Array, theta: float) -> None:
+def _momentum_flux(s: Stepping, ws: Workspace, flow: Array) -> None:
     """αQ²/A at cell centres from the two faces."""
-    n_x, n_phi = ws.mean_area.shape
-    for i in range(n_x):
+    theta = s.theta
+    for i in range(ws.mean_area.shape[0]):
         old_left, old_right = flow[i], flow[i + 1]
         new_left, new_right = ws.iterate_flow[i], ws.iterate_flow[i + 1]
         alpha_left, alpha_right = ws.alpha[i], ws.alpha[i + 1]
         area, flux = ws.mean_area[i], ws.momentum_flux[i]
-        for j in range(n_phi):
-            q = 0.5 * ((1.0 - theta) * (old_left[j] + old_right[j]) + theta * (new_left[j] + new_right[j]))
-            flux[j] = 0.5 * (alpha_left[j] + alpha_right[j]) * q * q / area[j]
+        for j in range(flux.size):
+            q = (1.0 - theta) * (old_left[j] + old_right[j]) + theta * (new_left[j] + new_right[j])
+            flux[j] = 0.125 * (alpha_left[j] + alpha_right[j]) * q * q / area[j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _predict(p: Parameters, s: Stepping, ws: Workspace, flow: Array) -> None:
-    """Flow G that each inner face would have at the iterate's pressure, and its conductance κ."""
-    n_x, n_phi = ws.mean_area.shape
-    theta, dt = s.theta, s.time_step
-    for f in range(1, n_x):
-        left, right = f - 1, f
-        area_left, area_right = ws.mean_area[left], ws.mean_area[right]
-        old_left, old_right = ws.pressure[left], ws.pressure[right]
-        new_left, new_right = ws.iterate_pressure[left], ws.iterate_pressure[right]
-        flux_left, flux_right = ws.momentum_flux[left], ws.momentum_flux[right]
-        source, old_flow = ws.source[f], flow[f]
+def _predict(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
+    """Flow G that inner faces would have at the iterate's pressure, and their conductance κ."""
+    theta, carry = s.theta, s.time_step / p.dx
+    pull = 0.5 * s.time_step / (p.density * p.dx)
+    for f in range(1, ws.mean_area.shape[0]):
+        area_left, area_right = ws.mean_area[f - 1], ws.mean_area[f]
+        old_left, old_right = fields.pressure[f - 1], fields.pressure[f]
+        new_left, new_right = ws.iterate_pressure[f - 1], ws.iterate_pressure[f]
+        flux_left, flux_right = ws.momentum_flux[f - 1], ws.momentum_flux[f]
+        damping, old_flow = ws.damping[f], fields.flow[f]
         explicit_flow, conductance = ws.explicit_flow[f], ws.conductance[f]
-        for j in range(n_phi):
-            drive = dt / (p.density * p.dx) * 0.5 * (area_left[j] + area_right[j])
+        for j in range(damping.size):
+            drive = pull * (area_left[j] + area_right[j])
             old = old_right[j] - old_left[j]
             new = new_right[j] - new_left[j]
-            advection = dt / p.dx * (flux_right[j] - flux_left[j])
-            damping = dt * source[j]
-            inverse = 1.0 / (1.0 - theta * damping)
-            rest = old_flow[j] * (1.0 + (1.0 - theta) * damping) - advection
+            inverse = 1.0 / (1.0 - theta * damping[j])
+            rest = old_flow[j] * (1.0 + (1.0 - theta) * damping[j])
+            rest -= carry * (flux_right[j] - flux_left[j])
             explicit_flow[j] = (rest - drive * ((1.0 - theta) * old + theta * new)) * inverse
             conductance[j] = theta * drive * inverse
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _predict_ends(p: Parameters, s: Stepping, ws: Workspace, flow: Array, inlet_velocity: float) -> None:
-    """Q' = vA' at the inlet; half a cell of momentum at the outlet."""
-    n_x, n_phi = ws.mean_area.shape
-    theta, dt, last = s.theta, s.time_step, n_x - 1
-    half = 0.5 * p.dx
-    for j in range(n_phi):
-        inlet_area = 1.5 * ws.iterate_area[0, j] - 0.5 * ws.iterate_area[1, j]
-        ws.explicit_flow[0, j] = inlet_velocity * inlet_area
-        ws.conductance[0, j] = 0.0
-        area = ws.outlet_area[j]
-        q = (1.0 - theta) * flow[n_x, j] + theta * ws.iterate_flow[n_x, j]
-        outlet_flux = ws.alpha[n_x, j] * q * q / area
-        drive = dt * area / (p.density * half)
-        old = ws.outlet_pressure[j] - ws.pressure[last, j]
-        new = ws.iterate_outlet_pressure[j] - ws.iterate_pressure[last, j]
-        advection = dt / half * (outlet_flux - ws.momentum_flux[last, j])
-        damping = dt * ws.source[n_x, j]
-        inverse = 1.0 / (1.0 - theta * damping)
-        rest = flow[n_x, j] * (1.0 + (1.0 - theta) * damping) - advection
-        ws.explicit_flow[n_x, j] = (rest - drive * ((1.0 - theta) * old + theta * new)) * inverse
-        ws.conductance[n_x, j] = theta * drive * inverse
+def _predict_ends(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float) -> None:
+    """G and κ at the inlet and at the outlet."""
+    n_x = ws.mean_area.shape[0]
+    if p.inlet_kind == PRESSURE_INLET:
+        half_cell(p, s, ws, fields, 0, ws.momentum_flux[0], INLET)
+    else:
+        inlet_flow(p, ws, inlet_value, ws.explicit_flow[0])
+        ws.conductance[0, :] = 0.0
+    half_cell(p, s, ws, fields, n_x, ws.momentum_flux[n_x - 1], OUTLET)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _mass_residual(p: Parameters, s: Stepping, ws: Workspace, area: Array, flow: Array) -> None:
-    """Mass balance at the iterate, into ``correction``; its own derivative, into ``diagonal``."""
-    n_x, n_phi = area.shape
+def _mass_residual(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
+    """Mass balance of every cell at the iterate, into ``correction``; its own derivative, into pivots."""
     c = s.theta * s.time_step / p.dx
     explicit = (1.0 - s.theta) * s.time_step / p.dx
-    for i in range(n_x):
-        old_left, old_right = flow[i], flow[i + 1]
+    for i in range(fields.area.shape[0]):
+        old_left, old_right = fields.flow[i], fields.flow[i + 1]
         new_left, new_right = ws.explicit_flow[i], ws.explicit_flow[i + 1]
-        area_row, iterate, slope = area[i], ws.iterate_area[i], ws.area_slope[i]
+        area, iterate, slope = fields.area[i], ws.iterate_area[i], ws.area_slope[i]
         left, right = ws.conductance[i], ws.conductance[i + 1]
-        rhs, pivot = ws.correction[i], ws.diagonal[i]
-        for j in range(n_phi):
+        pivot, rhs = ws.inverse_pivot[i], ws.correction[i]
+        for j in range(rhs.size):
             divergence = explicit * (old_right[j] - old_left[j]) + c * (new_right[j] - new_left[j])
-            rhs[j] = area_row[j] - iterate[j] - divergence
+            rhs[j] = area[j] - iterate[j] - divergence
             pivot[j] = slope[j] + c * (left[j] + right[j])
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _eliminate(p: Parameters, s: Stepping, ws: Workspace, inlet_velocity: float) -> None:
-    """Forward elimination of the linearised mass balance; leaves pivots and right-hand sides.
+def _eliminate(p: Parameters, s: Stepping, ws: Workspace, slopes: tuple[float, float]) -> None:
+    """Forward elimination of the linearised mass balance; leaves 1/pivot and right-hand sides.
 
-    The matrix is symmetric but for the first row, where Q' = vA' at the inlet.
+    The matrix is symmetric but for the first row, where Q' = vA' at a velocity inlet.
     """
     n_x, n_phi = ws.correction.shape
     c = s.theta * s.time_step / p.dx
-    inflow = c * inlet_velocity
+    first, second = ws.area_slope[0], ws.area_slope[1]
+    above, pivot = ws.inverse_pivot[0], ws.inverse_pivot[1]
     for j in range(n_phi):
-        ws.diagonal[0, j] -= 1.5 * inflow * ws.area_slope[0, j]
+        above[j] = 1.0 / (above[j] - c * slopes[0] * first[j])
         coupling = c * ws.conductance[1, j]
-        factor = coupling / ws.diagonal[0, j]
-        ws.diagonal[1, j] -= factor * (coupling - 0.5 * inflow * ws.area_slope[1, j])
+        factor = coupling * above[j]
         ws.correction[1, j] += factor * ws.correction[0, j]
+        pivot[j] = 1.0 / (pivot[j] - factor * (coupling + c * slopes[1] * second[j]))
     for i in range(2, n_x):
-        above, pivot = ws.diagonal[i - 1], ws.diagonal[i]
-        rhs_above, rhs = ws.correction[i - 1], ws.correction[i]
         conductance = ws.conductance[i]
+        above, pivot = ws.inverse_pivot[i - 1], ws.inverse_pivot[i]
+        rhs_above, rhs = ws.correction[i - 1], ws.correction[i]
         for j in range(n_phi):
             coupling = c * conductance[j]
-            factor = coupling / above[j]
-            pivot[j] -= factor * coupling
+            factor = coupling * above[j]
             rhs[j] += factor * rhs_above[j]
+            pivot[j] = 1.0 / (pivot[j] - factor * coupling)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _outlet_correction(p: Parameters, s: Stepping, ws: Workspace) -> None:
-    """Solve the outlet law for P_out' − P_out and close the last cell of every row.
-
-    After elimination the last cell's correction is an affine function of the outlet's, so is Q' there:
-    per row one scalar equation, per section one for all rows.
-    """
-    n_x, n_phi = ws.mean_area.shape
-    last = n_x - 1
-    c = s.theta * s.time_step / p.dx
-    total_flow, total_slope = 0.0, 0.0
-    for j in range(n_phi):
-        k = ws.conductance[n_x, j]
-        inverse = 1.0 / ws.diagonal[last, j]
-        base = ws.explicit_flow[n_x, j] + k * ws.correction[last, j] * inverse
-        slope = k * (1.0 - c * k * inverse)
-        if p.outlet_by_section:
-            total_flow += 0.5 * p.dphi * base
-            total_slope += 0.5 * p.dphi * slope
-        else:
-            target = p.offset + p.resistance * base - ws.iterate_outlet_pressure[j]
-            _close_last_cell(ws, j, c, target / (1.0 + p.resistance * slope))
-    if p.outlet_by_section:
-        target = p.offset + p.resistance * total_flow - ws.iterate_outlet_pressure[0]
-        change = target / (1.0 + p.resistance * total_slope)
-        for j in range(n_phi):
-            _close_last_cell(ws, j, c, change)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _close_last_cell(ws: Workspace, j: int, c: float, outlet_change: float) -> None:
-    n_x = ws.mean_area.shape[0]
-    last = n_x - 1
-    k = ws.conductance[n_x, j]
-    closed = (ws.correction[last, j] + c * k * outlet_change) / ws.diagonal[last, j]
-    ws.correction[last, j] = closed
-    ws.iterate_outlet_pressure[j] += outlet_change
-    ws.explicit_flow[n_x, j] -= k * (outlet_change - closed)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _substitute(p: Parameters, s: Stepping, ws: Workspace, inlet_velocity: float) -> None:
-    """Back substitution: P' − P of the iterate in every cell."""
+def _substitute(p: Parameters, s: Stepping, ws: Workspace, slopes: tuple[float, float]) -> None:
+    """Back substitution: P' − P of the iterate in every cell; P' and Q' with it."""
     n_x, n_phi = ws.mean_area.shape
     c = s.theta * s.time_step / p.dx
-    for i in range(n_x - 2, 0, -1):
+    for i in range(n_x - 2, -1, -1):
         conductance, below = ws.conductance[i + 1], ws.correction[i + 1]
-        correction, pivot = ws.correction[i], ws.diagonal[i]
+        correction, inverse = ws.correction[i], ws.inverse_pivot[i]
+        flow, pressure = ws.explicit_flow[i + 1], ws.iterate_pressure[i + 1]
+        if i == 0:
+            second = ws.area_slope[1]
+            for j in range(n_phi):
+                correction[j] += c * slopes[1] * second[j] * below[j]
         for j in range(n_phi):
-            correction[j] = (correction[j] + c * conductance[j] * below[j]) / pivot[j]
+            correction[j] = (correction[j] + c * conductance[j] * below[j]) * inverse[j]
+            flow[j] -= conductance[j] * (below[j] - correction[j])
+            pressure[j] += below[j]
+    first, second = ws.correction[0], ws.correction[1]
     for j in range(n_phi):
-        coupling = c * (ws.conductance[1, j] - 0.5 * inlet_velocity * ws.area_slope[1, j])
-        ws.correction[0, j] = (ws.correction[0, j] + coupling * ws.correction[1, j]) / ws.diagonal[0, j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _correct(ws: Workspace, inlet_velocity: float) -> None:
-    """P' in every cell and Q' on every face but the outlet, which is already closed."""
-    n_x, n_phi = ws.mean_area.shape
-    for j in range(n_phi):
-        first = 1.5 * ws.area_slope[0, j] * ws.correction[0, j]
-        second = 0.5 * ws.area_slope[1, j] * ws.correction[1, j]
-        ws.explicit_flow[0, j] += inlet_velocity * (first - second)
-    for f in range(1, n_x):
-        left, right = ws.correction[f - 1], ws.correction[f]
-        flow, conductance = ws.explicit_flow[f], ws.conductance[f]
-        for j in range(n_phi):
-            flow[j] -= conductance[j] * (right[j] - left[j])
-    for i in range(n_x):
-        pressure, correction = ws.iterate_pressure[i], ws.correction[i]
-        for j in range(n_phi):
-            pressure[j] += correction[j]
+        ws.iterate_pressure[0, j] += first[j]
+        change = slopes[0] * ws.area_slope[0, j] * first[j] + slopes[1] * ws.area_slope[1, j] * second[j]
+        ws.explicit_flow[0, j] += change - ws.conductance[0, j] * first[j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
@@ -451,61 +226,71 @@ def _rms(values: Array) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-def _rms_change(new: Array, old: Array) -> float:
-    """Root of the mean square of new − old, 2-D arrays."""
-    total = 0.0
+def _accept_flow(ws: Workspace) -> tuple[float, float]:
+    """Take Q' as the iterate; root mean squares of its change and of itself."""
+    change, size = 0.0, 0.0
+    for f in range(ws.iterate_flow.shape[0]):
+        old, new = ws.iterate_flow[f], ws.explicit_flow[f]
+        for j in range(old.size):
+            difference = new[j] - old[j]
+            change += difference * difference
+            size += new[j] * new[j]
+            old[j] = new[j]
+    count = ws.iterate_flow.size
+    return float(np.sqrt(change / count)), float(np.sqrt(size / count))
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _extrapolate(new: Array, older: Array, oldest: Array, guess: Array, order: int) -> None:
+    """First iterate: the old state, or its extrapolation in time of order 1 or 2; remember the past."""
+    a = (1.0, 2.0, 3.0)[order]
+    b = (0.0, -1.0, -3.0)[order]
+    c = (0.0, 0.0, 1.0)[order]
     for i in range(new.shape[0]):
-        new_row, old_row = new[i], old[i]
-        for j in range(new_row.size):
-            change = new_row[j] - old_row[j]
-            total += change * change
-    return float(np.sqrt(total / new.size))
+        now, past, before, target = new[i], older[i], oldest[i], guess[i]
+        for j in range(now.size):
+            target[j] = a * now[j] + b * past[j] + c * before[j]
+            before[j] = past[j]
+            past[j] = now[j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def pressure_of_area(area: Array, p: Parameters, pressure: Array) -> None:
-    """P = P₀ + (√A − R₀)/(R₀²/β) at every cell, into ``pressure``, Pa."""
-    n_x, n_phi = area.shape
-    for i in range(n_x):
-        for j in range(n_phi):
-            strain = np.sqrt(area[i, j]) - p.radius
-            pressure[i, j] = p.reference_pressure + strain / p.compliance[i, j]
+def _start(
+    p: Parameters, ws: Workspace, fields: Fields, inlet_value: float, order: int
+) -> tuple[int, int, int]:
+    """First iterate of a step, and what stays fixed during it; status, i, j."""
+    _extrapolate(fields.pressure, ws.older_pressure, ws.oldest_pressure, ws.iterate_pressure, order)
+    _extrapolate(fields.flow, ws.older_flow, ws.oldest_flow, ws.iterate_flow, order)
+    ws.end_pressure[OUTLET, :] = fields.outlet_pressure
+    ws.end_pressure[INLET, :] = inlet_value
+    return old_end_areas(p, ws, fields)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def outlet_pressure_of_flow(flow: Array, p: Parameters, pressure: Array) -> None:
-    """P = P_res + R_res × flow at the outlet, per row, into ``pressure`` (n_phi,), Pa."""
-    n_phi = pressure.size
-    outlet = flow[flow.shape[0] - 1]
-    section = 0.5 * p.dphi * n_phi * _mean(outlet)
-    for j in range(n_phi):
-        q = section if p.outlet_by_section else outlet[j]
-        pressure[j] = p.offset + p.resistance * q
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _start_iterate(
-    p: Parameters, ws: Workspace, area: Array, flow: Array, outlet_area: Array, extrapolate: bool
-) -> None:
-    """Old pressures, and the first iterate: the old state or its linear extrapolation in time."""
-    pressure_of_area(area, p, ws.pressure)
-    outlet_pressure_of_flow(flow, p, ws.outlet_pressure)
-    weight = 1.0 if extrapolate else 0.0
-    n_x, n_phi = area.shape
-    for i in range(n_x):
-        for j in range(n_phi):
-            old = ws.pressure[i, j]
-            ws.iterate_pressure[i, j] = old + weight * (old - ws.previous_pressure[i, j])
-            ws.previous_pressure[i, j] = old
-    for f in range(n_x + 1):
-        for j in range(n_phi):
-            q = flow[f, j]
-            ws.iterate_flow[f, j] = q + weight * (q - ws.previous_flow[f, j])
-            ws.previous_flow[f, j] = q
-    outlet_pressure_of_flow(ws.iterate_flow, p, ws.iterate_outlet_pressure)
-    for j in range(n_phi):
-        radius = p.radius + (ws.outlet_pressure[j] - p.reference_pressure) * p.compliance[n_x - 1, j]
-        outlet_area[j] = radius * radius
+def _sweep(
+    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float, outlet_offset: float
+) -> tuple[int, int, int]:
+    """One Newton sweep: from one iterate to the next; status, i, j."""
+    status, i, j = wall_area(p, ws.iterate_pressure, ws.iterate_area, ws.area_slope)
+    if status != OK:
+        return status, i, j
+    _mean_areas(ws, fields.area, s.theta)
+    status, i, j = end_areas(p, ws, s.theta)
+    if status != OK:
+        return status, i, j
+    status, i, j = _coefficients(p, s, ws, fields.flow)
+    if status != OK:
+        return status, i, j
+    slopes = inlet_slopes(p, inlet_value)
+    _momentum_flux(s, ws, fields.flow)
+    _predict(p, s, ws, fields)
+    _predict_ends(p, s, ws, fields, inlet_value)
+    outlet_law(p, s, ws, fields, outlet_offset)
+    _mass_residual(p, s, ws, fields)
+    _eliminate(p, s, ws, slopes)
+    close_outlet(p, s, ws)
+    _substitute(p, s, ws, slopes)
+    return OK, 0, 0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -513,98 +298,87 @@ def step(
     p: Parameters,
     s: Stepping,
     ws: Workspace,
-    area: Array,
-    flow: Array,
-    inlet_velocity: float,
-    outlet_area: Array,
-    extrapolate: bool,
+    fields: Fields,
+    inlet_value: float,
+    outlet_offset: float,
+    order: int,
 ) -> tuple[int, int, int, int]:
-    """Advance ``area`` and ``flow`` in place by one Δt.
+    """Advance the fields in place by one Δt.
 
     Parameters
     ----------
-    p, s, ws : Parameters, Stepping, Workspace
-    area : ndarray (n_x, n_phi)
-        A = R², m².
-    flow : ndarray (n_x + 1, n_phi)
-        Q = uR² on faces, m³/s.
-    inlet_velocity : float
-        v at the new time, m/s.
-    outlet_area : ndarray (n_phi,)
-        Scratch.
-    extrapolate : bool
-        Whether the workspace holds the step before, of the same Δt.
+    p, s, ws, fields : Parameters, Stepping, Workspace, Fields
+    inlet_value : float
+        v (m/s), q (m³/s) or P (Pa) at the new time, by the inlet's kind.
+    outlet_offset : float
+        P_res at the new time, Pa.
+    order : int
+        Order of the first iterate's extrapolation in time: 0, or 1 or 2 if the workspace holds so many
+        steps before, of the same Δt.
 
     Returns
     -------
     status, i, j, sweeps : int
         OK or what failed, the cell counted from 0, and the sweeps used.
     """
-    _start_iterate(p, ws, area, flow, outlet_area, extrapolate)
+    status, i, j = _start(p, ws, fields, inlet_value, order)
+    if status != OK:
+        return status, i, j, 0
     rest_flow = REST_VELOCITY * 1e-3 * p.radius * p.radius
-    rest_pressure = 1e-12 * p.radius / np.max(p.compliance)
     for sweep in range(1, s.max_sweeps + 1):
-        status, i, j = _wall(p, ws, area, outlet_area, s.theta)
+        status, i, j = _sweep(p, s, ws, fields, inlet_value, outlet_offset)
         if status != OK:
             return status, i, j, sweep
-        status, i, j = _coefficients(p, ws, flow, s.theta)
-        if status != OK:
-            return status, i, j, sweep
-        _momentum_flux(ws, flow, s.theta)
-        _predict(p, s, ws, flow)
-        _predict_ends(p, s, ws, flow, inlet_velocity)
-        _mass_residual(p, s, ws, area, flow)
-        _eliminate(p, s, ws, inlet_velocity)
-        _outlet_correction(p, s, ws)
-        _substitute(p, s, ws, inlet_velocity)
-        _correct(ws, inlet_velocity)
-        change = _rms_change(ws.explicit_flow, ws.iterate_flow)
-        correction = _rms(ws.correction)
-        if not np.isfinite(change + correction):
+        change, size = _accept_flow(ws)
+        correction, level = _rms(ws.correction), _rms(ws.iterate_pressure)
+        if not np.isfinite(change + size + correction + level):
             return NOT_FINITE, 0, 0, sweep
-        ws.iterate_flow[:, :] = ws.explicit_flow
-        flow_converged = change <= s.tolerance * _rms(ws.iterate_flow) + rest_flow
-        if flow_converged and correction <= s.tolerance * _rms(ws.iterate_pressure) + rest_pressure:
-            _balance_mass(p, s, area, flow, ws.iterate_flow, ws.exchanged)
+        rest_pressure = 1e-9 + 1e-12 * level
+        flow_converged = change <= s.tolerance * size + rest_flow
+        if flow_converged and correction <= s.tolerance * level + rest_pressure:
+            _accept(p, s, ws, fields)
             return OK, 0, 0, sweep
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _balance_mass(
-    p: Parameters, s: Stepping, area: Array, flow: Array, new_flow: Array, exchanged: Array
-) -> None:
-    """Take A' from the fluxes themselves, so that mass is conserved to round-off; Q' replaces Q."""
-    n_x, n_phi = area.shape
+def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
+    """Take the iterate as the new state; A' from the fluxes, so that mass is kept to round-off."""
+    area, flow, new_flow = fields.area, fields.flow, ws.iterate_flow
+    n_x = area.shape[0]
     ratio = s.time_step / p.dx
     sector = 0.5 * p.dphi * s.time_step
-    for j in range(n_phi):
-        exchanged[0] += sector * ((1.0 - s.theta) * flow[0, j] + s.theta * new_flow[0, j])
-        exchanged[1] += sector * ((1.0 - s.theta) * flow[n_x, j] + s.theta * new_flow[n_x, j])
+    for j in range(area.shape[1]):
+        ws.exchanged[0] += sector * ((1.0 - s.theta) * flow[0, j] + s.theta * new_flow[0, j])
+        ws.exchanged[1] += sector * ((1.0 - s.theta) * flow[n_x, j] + s.theta * new_flow[n_x, j])
     for i in range(n_x):
-        for j in range(n_phi):
-            old = flow[i + 1, j] - flow[i, j]
-            new = new_flow[i + 1, j] - new_flow[i, j]
-            area[i, j] -= ratio * ((1.0 - s.theta) * old + s.theta * new)
+        row = area[i]
+        old_left, old_right, new_left, new_right = flow[i], flow[i + 1], new_flow[i], new_flow[i + 1]
+        for j in range(row.size):
+            old, new = old_right[j] - old_left[j], new_right[j] - new_left[j]
+            row[j] -= ratio * ((1.0 - s.theta) * old + s.theta * new)
+    fields.outlet_pressure[:] = ws.end_pressure[OUTLET]
+    fields.inlet_pressure[:] = ws.end_pressure[INLET]
+    update_reservoir(p, s, fields, new_flow[n_x])
     flow[:, :] = new_flow
+    fields.pressure[:, :] = ws.iterate_pressure
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def advance(
-    p: Parameters, s: Stepping, ws: Workspace, area: Array, flow: Array, inlet_velocities: Array
+    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Array, outlet_offsets: Array
 ) -> tuple[int, int, int, int, int]:
-    """Take one step per entry of ``inlet_velocities`` (v at the end of each step, m/s).
+    """Take one step per entry of ``inlet_values`` and ``outlet_offsets`` (at the end of each step).
 
     Returns
     -------
     status, i, j, steps, sweeps : int
         As :func:`step`; steps completed and sweeps in all.
     """
-    outlet_area = np.empty(area.shape[1])
     total = 0
-    for n in range(inlet_velocities.size):
-        status, i, j, sweeps = step(p, s, ws, area, flow, inlet_velocities[n], outlet_area, n > 0)
+    for n in range(inlet_values.size):
+        status, i, j, sweeps = step(p, s, ws, fields, inlet_values[n], outlet_offsets[n], min(n, 2))
         total += sweeps
         if status != OK:
             return status, i, j, n, total
-    return OK, 0, 0, inlet_velocities.size, total
+    return OK, 0, 0, inlet_values.size, total

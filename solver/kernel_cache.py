@@ -1,0 +1,54 @@
+"""Where compiled kernels are kept: one folder per version of their sources.
+
+Numba renews a cached kernel when its own file changes, not when a kernel or a tuple of arrays that it
+imports from another file does. A folder named after all sources together cannot hold such a stale kernel,
+and lies where the user may write even if the code does not.
+"""
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+import numba
+
+FOLDER = "arterial-rom-validation"
+
+
+def sources_digest(folders: Iterable[Path]) -> str:
+    """Digest of all Python sources in folders, names and contents."""
+    digest = hashlib.sha256()
+    for path in sorted(path for folder in folders for path in folder.glob("*.py")):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:16]
+
+
+def _candidates() -> list[Path]:
+    stated = os.environ.get("XDG_CACHE_HOME")
+    home = Path(os.path.expanduser("~"))
+    own = f"{FOLDER}-{os.getuid()}" if hasattr(os, "getuid") else FOLDER
+    caches = [Path(stated)] if stated else []
+    return [*(cache / FOLDER for cache in [*caches, home / ".cache"]), Path(tempfile.gettempdir()) / own]
+
+
+def _usable(folder: Path) -> bool:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK | os.X_OK)
+
+
+def keep_kernels(folders: Iterable[Path]) -> None:
+    """Tell numba where to keep kernels compiled from the sources in ``folders``.
+
+    Without any writable place numba keeps to its own choice. An NUMBA_CACHE_DIR that the user set stands.
+    """
+    if "NUMBA_CACHE_DIR" in os.environ:
+        return
+    digest = sources_digest(folders)
+    for candidate in _candidates():
+        if _usable(candidate / digest):
+            numba.config.CACHE_DIR = str(candidate / digest)
+            return

@@ -1,0 +1,221 @@
+"""A state in the kernels' arrays, and what moves it."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from solver.boundary import NonReflectingOutlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
+from solver.errors import (
+    BeyondWallTable,
+    ModelError,
+    NoAdmissibleProfile,
+    NotConverged,
+    NotFinite,
+    RunFailure,
+    WallCollapse,
+)
+from solver.model import Model, State
+from solver.schemes import layout
+from solver.schemes.semi_implicit import advance
+
+TOLERANCE = 1e-8  # relative change of P and Q (root mean square) at which a step's iteration ends
+MAX_SWEEPS = 60
+
+INLETS = {
+    "velocity": layout.VELOCITY_INLET,
+    "flow": layout.FLOW_INLET,
+    "pressure": layout.PRESSURE_INLET,
+}
+FAILURES: dict[int, type[RunFailure]] = {
+    layout.NO_ADMISSIBLE_PROFILE: NoAdmissibleProfile,
+    layout.WALL_COLLAPSE: WallCollapse,
+    layout.BEYOND_WALL_TABLE: BeyondWallTable,
+    layout.NOT_CONVERGED: NotConverged,
+    layout.NOT_FINITE: NotFinite,
+}
+CELL_FAILURES = (layout.NO_ADMISSIBLE_PROFILE, layout.WALL_COLLAPSE, layout.BEYOND_WALL_TABLE)
+
+Floats = NDArray[np.float64]
+
+
+class Stepper:
+    """A model, its state and the workspace of the kernels.
+
+    Attributes
+    ----------
+    model : Model
+    time : float
+        s.
+    steps, sweeps : int
+        Steps taken so far, and sweeps of their iterations in all.
+    """
+
+    def __init__(self, model: Model, state: State) -> None:
+        self.model = model
+        self.time = state.time
+        self.steps = 0
+        self.sweeps = 0
+        self._parameters = parameters(model)
+        self._workspace = layout.workspace(model.grid.n_x, model.grid.n_phi)
+        self._fields = fields_of(model, state)
+
+    def state(self) -> State:
+        """Return an independent copy of the state."""
+        f = self._fields
+        return State(
+            self.time,
+            f.area.copy(),
+            f.flow.copy(),
+            f.pressure.copy(),
+            f.inlet_pressure.copy(),
+            f.outlet_pressure.copy(),
+            float(f.reservoir[0]),
+        )
+
+    def restore(self, state: State) -> None:
+        """Go back to a state."""
+        self._fields = fields_of(self.model, state)
+        self.time = state.time
+
+    def advance_through(self, begin: float, time_step: float, count: int, theta: float) -> float:
+        """Take ``count`` steps from time ``begin``, with what the boundaries prescribe then.
+
+        Returns and raises as :meth:`advance`.
+        """
+        times = begin + time_step * np.arange(1, count + 1)
+        return self.advance(self.model.inlet.signal(times), time_step, theta, offsets(self.model, times))
+
+    def advance(
+        self, inlet_values: Floats, time_step: float, theta: float, outlet_offsets: Floats | None = None
+    ) -> float:
+        """Take one step of ``time_step`` (s) per inlet value (SI, at the step's end).
+
+        Returns
+        -------
+        float
+            Mass defect over these steps: inflow − outflow − change of volume, over the inflow (0 at rest).
+
+        Raises
+        ------
+        RunFailure
+            NoAdmissibleProfile, WallCollapse, BeyondWallTable, NotConverged or NotFinite, with time and cell.
+        """
+        values = np.ascontiguousarray(inlet_values, dtype=float)
+        if outlet_offsets is None:
+            outlet_offsets = offsets(self.model, self.time + time_step * np.arange(1, values.size + 1))
+        stepping = layout.Stepping(float(time_step), float(theta), TOLERANCE, MAX_SWEEPS)
+        before = lumen_volume(self.model, self._fields.area)
+        self._workspace.exchanged[:] = 0.0
+        status, i, j, steps, sweeps = advance(
+            self._parameters, stepping, self._workspace, self._fields, values, outlet_offsets
+        )
+        self.time += steps * time_step
+        self.steps += steps
+        self.sweeps += sweeps
+        if status != layout.OK:
+            cell = (i + 1, j + 1) if status in CELL_FAILURES else (0, 0)
+            raise FAILURES[status](self.time + time_step, *cell)
+        if not (np.all(np.isfinite(self._fields.area)) and np.all(np.isfinite(self._fields.flow))):
+            raise NotFinite(self.time, 0, 0)
+        inflow, outflow = self._workspace.exchanged
+        change = lumen_volume(self.model, self._fields.area) - before
+        rest = layout.REST_VELOCITY * np.pi * self.model.radius**2 * time_step
+        return float((inflow - outflow - change) / max(abs(inflow), abs(outflow), rest))
+
+
+def lumen_volume(model: Model, area: Floats) -> float:
+    """Volume of the lumen, ∫∫ ½A dφ dx, m³."""
+    return float(0.5 * model.grid.dphi * model.grid.dx * np.sum(area))
+
+
+def offsets(model: Model, times: ArrayLike) -> Floats:
+    """What the outlet prescribes at times: P_res, or the pressure itself, Pa; 0 where it has none."""
+    times = np.asarray(times, dtype=float)
+    outlet = model.outlet
+    if isinstance(outlet, PressureOutlet):
+        return np.ascontiguousarray(outlet.signal(times), dtype=float)
+    if isinstance(outlet, ResistanceOutlet):
+        offset = outlet.offset(times) if callable(outlet.offset) else np.full(times.shape, outlet.offset)
+        return np.ascontiguousarray(offset, dtype=float)
+    return np.zeros(times.shape)
+
+
+def parameters(model: Model) -> layout.Parameters:
+    """Parameters of the kernels from a model."""
+    table = model.wall_table
+    outlet = model.outlet
+    kind, resistance, distal, capacitance, venous = layout.SECTION_RESISTANCE, 0.0, 1.0, 1.0, 0.0
+    if isinstance(outlet, ResistanceOutlet):
+        by_row = outlet.flow == "row"
+        kind = layout.ROW_RESISTANCE if by_row else layout.SECTION_RESISTANCE
+        resistance = outlet.resistance
+    elif isinstance(outlet, WindkesselOutlet):
+        kind, resistance = layout.WINDKESSEL, outlet.proximal_resistance
+        distal, capacitance = outlet.distal_resistance, outlet.compliance
+        venous = outlet.venous_pressure
+    elif isinstance(outlet, NonReflectingOutlet):
+        kind = layout.NON_REFLECTING
+    return layout.Parameters(
+        dx=float(model.grid.dx),
+        dphi=float(model.grid.dphi),
+        radius=float(model.radius),
+        reference_pressure=float(model.reference_pressure),
+        density=float(model.density),
+        kinematic_viscosity=float(model.viscosity / model.density),
+        compliance=np.ascontiguousarray(model.radius**2 / model.stiffness, dtype=float),
+        table=np.zeros((model.grid.n_x, model.grid.n_phi, 0, 2)) if table is None else table.values,
+        table_start=0.0 if table is None else float(table.start),
+        table_step=1.0 if table is None else float(table.step),
+        fixed_exponent=float(model.fixed_exponent or 0.0),
+        inlet_kind=INLETS[model.inlet.kind],
+        outlet_kind=kind,
+        resistance=float(resistance),
+        distal_resistance=float(distal),
+        capacitance=float(capacitance),
+        venous_pressure=float(venous),
+    )
+
+
+def fields_of(model: Model, state: State) -> layout.Fields:
+    """Arrays of the kernels from a state; pressures that it lacks follow from area and flow.
+
+    Raises
+    ------
+    ModelError
+        If the state is of another grid.
+    NotFinite
+        If it is not finite.
+    """
+    grid = model.grid
+    shapes = {"area": (grid.n_x, grid.n_phi), "flow": (grid.n_x + 1, grid.n_phi)}
+    for name, shape in shapes.items():
+        found = getattr(state, name)
+        if found.shape != shape:
+            raise ModelError(f"the state's {name} has shape {found.shape}; the model's grid needs {shape}")
+        if not np.all(np.isfinite(found)):
+            raise NotFinite(state.time, 0, 0, f"{name} of the initial state")
+    if not np.all(state.area > 0):
+        raise ModelError("the state's area must be positive in every cell")
+    pressure = model.pressure(state.area) if state.pressure is None else state.pressure
+    section = 0.5 * grid.dphi * float(np.sum(state.flow[-1]))
+    outlet = _outlet_pressure(model, state, pressure, section)
+    inlet = pressure[0] if state.inlet_pressure is None else state.inlet_pressure
+    reservoir = state.reservoir
+    if reservoir is None:
+        proximal = getattr(model.outlet, "proximal_resistance", 0.0)
+        reservoir = float(np.mean(outlet)) - proximal * section
+    arrays = [
+        np.array(part, dtype=float, order="C")
+        for part in (state.area, state.flow, pressure, inlet, outlet, [reservoir])
+    ]
+    return layout.Fields(*arrays)
+
+
+def _outlet_pressure(model: Model, state: State, pressure: Floats, section: float) -> Floats:
+    if state.outlet_pressure is not None:
+        return state.outlet_pressure
+    outlet = model.outlet
+    if isinstance(outlet, ResistanceOutlet):
+        offset = float(offsets(model, [state.time])[0])
+        flow = state.flow[-1] if outlet.flow == "row" else np.full(model.grid.n_phi, section)
+        return np.asarray(offset + outlet.resistance * flow)
+    return np.asarray(pressure[-1])
