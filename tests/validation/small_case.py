@@ -12,7 +12,7 @@ RUNS = ROOT / "reference_data/febio"
 
 def small_case(*variants: str, n_x: int = 12, n_phi: int = 8) -> dict[str, Any]:
     """Content of the ready case with some of its variants, on a coarse grid, with absolute paths."""
-    case = YAML(typ="safe").load(READY)
+    case = YAML().load(READY)
     case["solver"] |= {"n_x": n_x, "n_phi": n_phi, "time_step": "4 ms", "cycles": 1}
     case["compare"]["cells"] = {"i": [1, 6, 12], "j": [1, 4]}
     case["inlet"]["waveform"] = str(ROOT / case["inlet"]["waveform"])
@@ -32,5 +32,5 @@ def bands(case: dict[str, Any], *declared: tuple[str, str, str]) -> dict[str, An
 def written(case: dict[str, Any], folder: Path, name: str = "small.yaml") -> Path:
     path = folder / name
     with path.open("w", encoding="utf-8") as stream:
-        YAML(typ="safe").dump(case, stream)
+        YAML().dump(case, stream)
     return path
