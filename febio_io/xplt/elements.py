@@ -15,8 +15,8 @@ class ElementType:
         FEBio's name, in lower case.
     nodes : int
         Nodes of an element.
-    vtk_type : int or None
-        VTK cell type; None where VTK has no such cell.
+    vtk_type : int
+        VTK cell type. Where VTK has no such cell, that with the same corners and fewer nodes.
     vtk_order : tuple of int
         FEBio's local nodes in VTK's order; shorter than `nodes` where the VTK cell leaves nodes out.
     """
@@ -24,12 +24,12 @@ class ElementType:
     code: int
     name: str
     nodes: int
-    vtk_type: int | None
+    vtk_type: int
     vtk_order: tuple[int, ...]
 
 
 def _row(
-    code: int, name: str, nodes: int, vtk_type: int | None, vtk_order: tuple[int, ...] | None = None
+    code: int, name: str, nodes: int, vtk_type: int, vtk_order: tuple[int, ...] | None = None
 ) -> ElementType:
     return ElementType(code, name, nodes, vtk_type, vtk_order or tuple(range(nodes)))
 
@@ -54,8 +54,8 @@ ELEMENT_TYPES = {
         _row(11, "quad8", 8, 23),
         _row(12, "quad9", 9, 28),
         _row(13, "penta15", 15, 26),
-        _row(14, "tet20", 20, None),
-        _row(15, "tri10", 10, None),
+        _row(14, "tet20", 20, 10, tuple(range(4))),
+        _row(15, "tri10", 10, 5, tuple(range(3))),
         _row(16, "pyra5", 5, 14),
         _row(17, "tet5", 5, 10, tuple(range(4))),
         _row(18, "pyra13", 13, 27),

@@ -171,8 +171,23 @@ def _problem(
     return None
 
 
-def view_block(state: StateData, variable: Variable, mesh: Mesh, block: Chunk) -> Values:
+def view_block(
+    state: StateData, variable: Variable, mesh: Mesh, region: Region | None, block: Chunk
+) -> Values:
     """View the values of a block that :func:`find_blocks` found.
+
+    Parameters
+    ----------
+    state : StateData
+        The state.
+    variable : Variable
+        The variable.
+    mesh : Mesh
+        The mesh.
+    region : Region or None
+        The block's domain, surface or edge; None for global and node variables.
+    block : Chunk
+        The block.
 
     Returns
     -------
@@ -180,7 +195,7 @@ def view_block(state: StateData, variable: Variable, mesh: Mesh, block: Chunk) -
         The values, in the shape of :func:`block_shape`: read-only, and the stored bytes themselves where
         these have the machine's byte order.
     """
-    shape = block_shape(variable, mesh, regions_of(variable, mesh)[block.tag])
+    shape = block_shape(variable, mesh, region)
     values = state.source.array(block, "f4").astype(np.float32, copy=False).reshape(shape or ())
     values.flags.writeable = False
     return values

@@ -5,7 +5,7 @@ from functools import lru_cache
 from os import PathLike
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,10 @@ from febio_io.xplt.mesh import Mesh
 from febio_io.xplt.mesh_reader import read_mesh
 from febio_io.xplt.objects import ObjectState, read_object_states
 from febio_io.xplt.root import map_file, read_root
+
+if TYPE_CHECKING:
+    import pyvista as pv
+    import xarray as xr
 
 STATES_KEPT = 4
 KEEP_INFLATED = 512 << 20
@@ -273,6 +277,27 @@ class Plot:
         data = self._open_state(find_state(self.path, self.n_states, state))
         return read_object_states(data.source, data.objects, self.mesh.objects) if data.objects else ()
 
+    def to_xarray(
+        self, *, variables: Iterable[str] | None = None, states: Iterable[int] | None = None
+    ) -> "xr.Dataset":
+        """Read variables and states into labelled arrays; see :func:`febio_io.arrays.to_xarray`."""
+        from febio_io.arrays import to_xarray
+
+        return to_xarray(self, variables=variables, states=states)
+
+    def to_pyvista(
+        self,
+        state: int = -1,
+        *,
+        surface: str | int | None = None,
+        edge: str | int | None = None,
+        deformed: bool = False,
+    ) -> "pv.UnstructuredGrid":
+        """Give one state as a mesh with its values; see :func:`febio_io.grids.to_pyvista`."""
+        from febio_io.grids import to_pyvista
+
+        return to_pyvista(self, state, surface=surface, edge=edge, deformed=deformed)
+
     def _view(
         self, name: str | Variable, state: int, region: str | int | None, section: SectionName | None
     ) -> Values:
@@ -289,7 +314,37 @@ class Plot:
                 f"{label}; give one of Plot.variables instead of the name"
             )
         variable, block = owners[0]
-        return view_block(data, variable, mesh, block)
+        return view_block(data, variable, mesh, regions[number], block)
+
+    def fields(self, variable: Variable, state: int) -> dict[int, Values]:
+        """View the values of one variable in one state, in all regions that have any.
+
+        Parameters
+        ----------
+        variable : Variable
+            One of the variables.
+        state : int
+            Number of the state, 0-based; negative numbers count from the end.
+
+        Returns
+        -------
+        dict of int to float32 array
+            Read-only values, shaped as those of :meth:`field`, by the number of the region; 0 for global and
+            node variables.
+
+        Raises
+        ------
+        FebioKeyError
+            If there is no such variable or state.
+        FebioFormatError
+            If the values' size is not what the variable and the mesh require.
+        """
+        data, mesh, ((_, blocks),) = self._blocks(variable, state, None)
+        regions = regions_of(variable, mesh)
+        return {
+            number: view_block(data, variable, mesh, regions[number], block)
+            for number, block in blocks.items()
+        }
 
     def regions(
         self, name: str | Variable, state: int, *, section: SectionName | None = None

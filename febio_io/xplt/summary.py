@@ -32,6 +32,7 @@ def summarize(plot: Plot) -> Summary:
     last = plot.n_states - 1
     return {
         "path": str(plot.path),
+        "kind": "plot file",
         "version": f"{plot.version:#04x}",
         "software": plot.software,
         "units": plot.units,
@@ -78,6 +79,15 @@ def _summarize_mesh(mesh: Mesh) -> Summary:
         "facet_sets": [{"name": s.name, "faces": s.n_items} for s in mesh.facet_sets],
         "node_sets": [{"name": s.name, "nodes": len(s.nodes)} for s in mesh.node_sets],
         "element_sets": [{"name": s.name, "elements": len(s.element_ids)} for s in mesh.element_sets],
+        "objects": [
+            {
+                "kind": item.kind,
+                "id": item.object_id,
+                "name": item.name,
+                "variables": [variable.name for variable in item.variables],
+            }
+            for item in mesh.objects
+        ],
         "parts": [{"id": part.part_id, "name": part.name} for part in mesh.parts],
     }
 
@@ -121,6 +131,9 @@ def _mesh_lines(mesh: Summary) -> Iterator[str]:
         yield f"    surface {surface['region']} {surface['name']}: {surface['faces']} faces"
     for edge in mesh["edges"]:
         yield f"    edge {edge['region']} {edge['name']}: {edge['lines']} lines"
+    for item in mesh["objects"]:
+        what = "rigid body or joint" if item["kind"] == "point" else "connector"
+        yield f"    {what} {item['id']} {item['name'] or '(no name)'}: {', '.join(item['variables'])}"
     for kind, members in (("facet", "faces"), ("node", "nodes"), ("element", "elements")):
         if sets := mesh[f"{kind}_sets"]:
             yield f"    {kind} sets: " + ", ".join(f"{item['name']} ({item[members]})" for item in sets)
