@@ -10,7 +10,7 @@ from cases.values import FlowRate, Period, Pressure, Velocity, refused
 
 
 class FourierSeries(Section):
-    """A sum of harmonics: mean + Σ_k (cosines_k cos(2πkt/period) + sines_k sin(2πkt/period)), k = 1, 2, 3 ….
+    """A periodic quantity: mean + Σ_k (cosines_k cos(2πkt/period) + sines_k sin(2πkt/period)), k from 1 on.
 
     Attributes
     ----------

@@ -15,6 +15,30 @@ t_s,mean_velocity_cm_s
 0.8,10.0
 """
 
+FLOW = """\
+t_ms,flow_rate_mL_min
+0,300
+300,600
+800,300
+"""
+
+PRESSURE = """\
+t_s,pressure_mmHg
+0.0,80
+0.3,120
+0.8,80
+"""
+
+SHORT_PRESSURE = PRESSURE.replace("0.8,", "0.7,")
+
+WALL = """\
+radius_mm,pressure_kPa
+2.0,-5
+2.4,0
+2.6,4
+3.0,20
+"""
+
 BASE = """\
 name: artery
 title: An artery
@@ -61,6 +85,10 @@ class CaseFolder:
         self.path = path
         (path / "data").mkdir()
         (path / "data/inlet.csv").write_text(WAVEFORM)
+        (path / "data/flow.csv").write_text(FLOW)
+        (path / "data/pressure.csv").write_text(PRESSURE)
+        (path / "data/short_pressure.csv").write_text(SHORT_PRESSURE)
+        (path / "data/wall.csv").write_text(WALL)
         (path / "data/run.xplt").touch()
 
     def write(self, *edits: tuple[str, str]) -> Path:

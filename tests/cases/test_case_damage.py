@@ -28,7 +28,9 @@ odd_values = st.recursive(
     odd_scalars,
     lambda below: (
         st.lists(below, max_size=3)
-        | st.dictionaries(st.sampled_from(["x", "phi", "pattern", "kind", "i"]), below)
+        | st.dictionaries(
+            st.sampled_from(["x", "phi", "pattern", "kind", "i", "law", "layers", "fourier", "scheme"]), below
+        )
     ),
     max_leaves=4,
 )

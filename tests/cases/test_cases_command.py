@@ -91,5 +91,25 @@ def test_the_schema_accepts_the_ready_file_and_refuses_mistakes(ready_file):
         ("pattern: local", "pattern: lokal"),
         ("x: [5 mm, 10 mm]", "x: [5 mm]"),
         ("variants:", "variant:"),
+        ("closure: average", "limiter: van_leer, error_tolerance: 1 %"),
+        ("kind: velocity, waveform", "kind: flux, waveform"),
+        ("offset: 9330 Pa", "compliance: 1 m^3/Pa"),
     ]:
         assert not accepted(text.replace(old, new)), new
+    for old, new in [
+        ("law: thick, youngs_modulus: 0.6 MPa", "law: layered, layers: [{name: a, thickness: 1 mm}]"),
+        (
+            "{law: thick, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48, reference_pressure: 0 Pa}",
+            "{law: table, table: wall.csv}",
+        ),
+        ("waveform: reference_data/waveforms/thesis_inlet.csv", "fourier: {mean: 1 m/s, cosines: [1 m/s]}"),
+        ("kind: velocity", "kind: pressure, ramp: 8 ms"),
+        (
+            "kind: resistance, resistance: 1.358e9 Pa s/m^3, offset: 9330 Pa, flow: section",
+            "kind: non_reflecting",
+        ),
+        ("scheme: semi_implicit", "scheme: godunov, limiter: minmod"),
+        ("scheme: semi_implicit", "scheme: semi_implicit, error_tolerance: 0.01"),
+    ]:
+        assert old in text
+        assert accepted(text.replace(old, new)), new

@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from cases.column_file import FLOW_RATE, PRESSURE
 from cases.errors import ColumnFileError
 from cases.waveform_file import read_waveform
 
@@ -25,6 +26,31 @@ def test_values_become_si(read):
     np.testing.assert_array_equal(waveform.values, [0.0841199, 0.2, 0.0841199])
     assert waveform.period == 0.79733
     assert waveform.path.name == "w.csv"
+
+
+@pytest.mark.parametrize(
+    ("quantity", "header", "si"),
+    [
+        (FLOW_RATE, "flow_rate_m3_s", 3.0),
+        (FLOW_RATE, "flow_rate_cm3_s", 3e-6),
+        (FLOW_RATE, "flow_rate_mL_s", 3e-6),
+        (FLOW_RATE, "flow_rate_mL_min", 5e-8),
+        (PRESSURE, "pressure_Pa", 3.0),
+        (PRESSURE, "pressure_kPa", 3000.0),
+        (PRESSURE, "pressure_mmHg", 399.967162245),
+    ],
+)
+def test_other_quantities_become_si(tmp_path, quantity, header, si):
+    file = tmp_path / "w.csv"
+    file.write_text(f"t_s,{header}\n0,0\n1,3\n2,0\n")
+    np.testing.assert_array_equal(read_waveform(file, quantity=quantity).values, [0.0, si, 0.0])
+
+
+def test_the_closure_is_told_in_the_unit_of_the_quantity(tmp_path):
+    file = tmp_path / "w.csv"
+    file.write_text("t_s,pressure_kPa\n0,1\n1,3\n2,2\n")
+    with pytest.raises(ColumnFileError, match="ends at 2000 Pa but starts at 1000 Pa"):
+        read_waveform(file, quantity=PRESSURE)
 
 
 def test_arrays_cannot_be_written_to(read):
