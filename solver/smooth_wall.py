@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.calcification import Patch, calcified_stiffness
+from solver.calcification import Patch
 from solver.errors import ModelError
 from solver.grid import Grid
 
@@ -60,7 +60,8 @@ def smooth_wall(grid: Grid, patch: Patch | None, healthy: float, calcified: floa
     near = (distance > 0) & (distance < 1)
     direction = np.divide(offset[:, None], distance, out=np.zeros_like(distance), where=near)
     slope = direction / patch.x_transition * np.pi * (healthy - calcified) / 2 * np.sin(np.pi * distance)
-    return SmoothWall(calcified_stiffness(healthy, calcified, distance), slope)
+    share = 0.5 - 0.5 * np.cos(np.pi * np.minimum(distance, 1.0))
+    return SmoothWall(calcified + (healthy - calcified) * share, slope)
 
 
 def _distance_around(grid: Grid, patch: Patch) -> Floats:
