@@ -4,17 +4,12 @@ import argparse
 import sys
 from pathlib import Path
 
-import xarray as xr
-
 from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
-from cases.schema import Case
 from solver.errors import SolverError
-from solver.files import check_folder, write_netcdf
-from solver.from_case import default_output_times, model_of
+from solver.files import check_folder
 from solver.progress import progress_bar
-from solver.result import to_dataset
-from solver.simulate import simulate
+from solver.run import pieces_folder, run_identity, run_to_file
 
 WRONG_INPUT, INTERRUPTED = 2, 130
 
@@ -24,6 +19,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("case", type=Path, help="case file (YAML)")
     parser.add_argument("--variant", help="variant of the case file (needed where it has several)")
     parser.add_argument("--output", type=Path, required=True, help="result file (NetCDF), e.g. run.nc")
+    parser.add_argument("--resume", action="store_true", help="go on with an interrupted run")
     return parser.parse_args()
 
 
@@ -45,15 +41,6 @@ def chosen_variant(file: CaseFile, name: str | None) -> str:
     return name
 
 
-def run(case: Case, label: str) -> xr.Dataset:
-    """Run a case from the steady state of its first inlet velocity; see :func:`solver.result.to_dataset`."""
-    with progress_bar(label) as progress:
-        trajectory = simulate(
-            model_of(case), default_output_times(case), case.solver.time_step, progress=progress
-        )
-    return to_dataset(trajectory)
-
-
 def main() -> int:
     """Run the command; return its exit status."""
     arguments = _arguments()
@@ -61,18 +48,20 @@ def main() -> int:
         check_folder(arguments.output)
         file = load_case_file(arguments.case)
         variant = chosen_variant(file, arguments.variant)
-        dataset = run(file.variants[variant], f"{file.name} {variant}")
-        dataset.attrs.update(case=file.name, title=file.title, variant=variant, case_yaml=file.text)
-        write_netcdf(dataset, arguments.output)
+        stated = {"case": file.name, "title": file.title, "variant": variant, "case_yaml": file.text}
+        identity = run_identity(file.text, variant)
+        with progress_bar(f"{file.name} {variant}") as progress:
+            done = run_to_file(
+                file.variants[variant], arguments.output, identity, stated, arguments.resume, progress
+            )
     except (CaseError, SolverError) as error:
         print(error, file=sys.stderr)
         return WRONG_INPUT
     except KeyboardInterrupt:
-        print("interrupted; nothing was written", file=sys.stderr)
+        kept = pieces_folder(arguments.output)
+        print(f"interrupted; --resume goes on from the last piece in {kept}", file=sys.stderr)
         return INTERRUPTED
-    print(
-        f"{arguments.output}: {dataset.attrs['steps']} steps of at most {dataset.attrs['time_step_s']:.6g} s"
-    )
+    print(f"{arguments.output}: {done['steps']} steps of at most {done['time_step_s']:.6g} s")
     return 0
 
 

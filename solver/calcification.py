@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from solver.grid import Grid
 
+ROUND_OFF = 1e-12
+
 
 @dataclass(frozen=True)
 class Patch:
@@ -36,7 +38,10 @@ def _distance_to_interval(
     offset = value - middle
     if period is not None:
         offset = (offset + 0.5 * period) % period - 0.5 * period
-    return np.asarray(np.maximum(np.abs(offset) - half, 0.0))
+    distance = np.abs(offset) - half
+    # a centre on the edge belongs to the patch, whatever round-off says
+    on_edge = ROUND_OFF * max(abs(first), abs(last))
+    return np.where(distance > on_edge, distance, 0.0)
 
 
 def _scaled(distance: NDArray[np.float64], length: float | None) -> NDArray[np.float64]:
@@ -71,14 +76,14 @@ def calcified_stiffness(
     Parameters
     ----------
     healthy, calcified : float
-        β_H and β_C, Pa m.
+        β_H and β_C, Pa m; or two moduli likewise, Pa.
     distance : ndarray
         Scaled distance d to the patch.
 
     Returns
     -------
     ndarray
-        β, Pa m, of the shape of ``distance``.
+        β of the shape of ``distance``.
     """
     near = np.minimum(distance, 1.0)
     return (healthy + calcified) / 2 - (healthy - calcified) / 2 * np.cos(np.pi * near)

@@ -9,18 +9,23 @@ from solver.errors import SolverError
 
 
 def check_folder(path: Path) -> None:
-    """Refuse a result file whose folder does not exist, before the run that would fill it.
+    """Refuse a result file that cannot be written, before the run that would fill it.
 
     Raises
     ------
     SolverError
-        If it does not exist.
+        If its folder does not exist or cannot be written to, or it is a folder itself.
     """
-    if not path.absolute().parent.is_dir():
+    folder = path.absolute().parent
+    if not folder.is_dir():
         raise SolverError(f"{path}: its folder does not exist")
+    if path.is_dir():
+        raise SolverError(f"{path}: is a folder, not a result file")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise SolverError(f"{path}: its folder cannot be written to")
 
 
-def write_netcdf(dataset: xr.Dataset, path: Path) -> None:
+def write_netcdf(dataset: xr.Dataset, path: Path, unlimited: tuple[str, ...] = ()) -> None:
     """Write ``dataset`` to ``path``, replacing an older file only by a complete new one.
 
     Raises
@@ -31,7 +36,7 @@ def write_netcdf(dataset: xr.Dataset, path: Path) -> None:
     partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     encoding = {name: {"zlib": True, "complevel": 1, "shuffle": True} for name in dataset.data_vars}
     try:
-        dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding)
+        dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding, unlimited_dims=unlimited)
         partial.replace(path)
     except OSError as error:
         raise SolverError(f"{path}: cannot be written: {error.strerror or error}") from error

@@ -1,22 +1,27 @@
-"""From a checked case to the model that the solver runs. The one module here that knows the case schema."""
+"""From a checked case to the model that the solver runs; its wall is in :mod:`solver.wall_from_case`."""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.schema import (
-    AxialTransition,
-    AxisymmetricCalcification,
-    Case,
-    LocalCalcification,
-    NoCalcification,
-    PatchTransition,
+import cases.outlet as stated
+from cases.inlet import PrescribedInlet
+from cases.schema import Case
+from cases.solver_settings import SemiImplicitSolver
+from cases.waveform_file import Waveform as Samples
+from solver.boundary import (
+    Inlet,
+    NonReflectingOutlet,
+    Outlet,
+    PressureOutlet,
+    ResistanceOutlet,
+    WindkesselOutlet,
 )
-from solver.calcification import Patch, calcified_stiffness, scaled_distance
+from solver.calcification import scaled_distance
 from solver.grid import Grid
-from solver.boundary import Inlet, ResistanceOutlet
-from solver.model import Model
-from solver.wall import wall_stiffness
-from solver.waveform import Waveform, constant
+from solver.model import Model, State, uniform_state
+from solver.steady import steady_state
+from solver.wall_from_case import patch_of, wall_on_grid
+from solver.waveform import FourierSeries, Ramped, Signal, Waveform, constant
 
 OUTPUTS_PER_CYCLE = 100  # where the case states no output_interval
 
@@ -24,20 +29,6 @@ OUTPUTS_PER_CYCLE = 100  # where the case states no output_interval
 def grid_of(case: Case) -> Grid:
     """Grid on (x, φ) of a case."""
     return Grid(case.geometry.length, case.solver.n_x, case.solver.n_phi)
-
-
-def patch_of(case: Case) -> Patch | None:
-    """Calcified rectangle of a case; None for a healthy wall."""
-    stated = case.calcification
-    if isinstance(stated, NoCalcification):
-        return None
-    transition = stated.transition
-    return Patch(
-        x=stated.x,
-        phi=stated.phi if isinstance(stated, LocalCalcification) else None,
-        x_transition=transition.x if isinstance(transition, AxialTransition | PatchTransition) else None,
-        phi_transition=transition.phi if isinstance(transition, PatchTransition) else None,
-    )
 
 
 def calcified_cells(case: Case) -> NDArray[np.bool_]:
@@ -48,32 +39,44 @@ def calcified_cells(case: Case) -> NDArray[np.bool_]:
     return np.asarray(scaled_distance(grid, patch) == 0)
 
 
-def stiffness_of(case: Case) -> NDArray[np.float64]:
-    """Wall stiffness β of a case in every cell, (n_x, n_phi), Pa m."""
-    grid, patch = grid_of(case), patch_of(case)
-    moduli = [case.wall.youngs_modulus]
-    if isinstance(case.calcification, AxisymmetricCalcification | LocalCalcification):
-        moduli.append(case.calcification.youngs_modulus)
-    betas = wall_stiffness(
-        case.wall.law,
-        np.array(moduli),
-        case.geometry.radius,
-        case.geometry.wall_thickness,
-        case.wall.poisson_ratio,
-    )
-    if patch is None:
-        return np.full((grid.n_x, grid.n_phi), betas[0])
-    return calcified_stiffness(betas[0], betas[1], scaled_distance(grid, patch))
+def _signal(waveform: Samples | None, value: float | None, period: float) -> Signal:
+    if waveform is not None:
+        return Waveform(waveform.times, waveform.values)
+    if value is None:  # the schema states one of the sources
+        raise ValueError("a boundary states no source")
+    return constant(value, period)
 
 
-def inlet_waveform(case: Case) -> Waveform:
-    """Mean velocity at the inlet over one cycle, m/s."""
-    inlet = case.inlet
-    if inlet.waveform is not None:
-        return Waveform(inlet.waveform.times, inlet.waveform.values)
-    if inlet.value is None:  # the schema states exactly one of the two
-        raise ValueError("an inlet states neither waveform nor value")
-    return constant(inlet.value, inlet.period)
+def inlet_signal(case: Case) -> Signal:
+    """What is prescribed at the inlet over time, SI, without its ramp."""
+    inlet: PrescribedInlet = case.inlet
+    if inlet.fourier is not None:
+        series = inlet.fourier
+        return FourierSeries(series.period, series.mean, tuple(series.cosines), tuple(series.sines))
+    return _signal(inlet.waveform, inlet.value, inlet.period)
+
+
+def inlet_of(case: Case) -> Inlet:
+    """Inlet of a case."""
+    signal, ramp = inlet_signal(case), case.inlet.ramp
+    return Inlet(case.inlet.kind, signal if ramp is None else Ramped(signal, ramp))
+
+
+def outlet_of(case: Case) -> Outlet:
+    """Outlet of a case."""
+    outlet = case.outlet
+    if isinstance(outlet, stated.ResistanceOutlet):
+        offset: float | Signal = outlet.offset
+        if outlet.ramp is not None:
+            offset = Ramped(constant(outlet.offset, case.inlet.period), outlet.ramp)
+        return ResistanceOutlet(outlet.resistance, offset, outlet.flow)
+    if isinstance(outlet, stated.WindkesselOutlet):
+        return WindkesselOutlet(
+            outlet.proximal_resistance, outlet.distal_resistance, outlet.compliance, outlet.venous_pressure
+        )
+    if isinstance(outlet, stated.PressureOutlet):
+        return PressureOutlet(_signal(outlet.waveform, outlet.value, case.inlet.period))
+    return NonReflectingOutlet()
 
 
 def model_of(case: Case) -> Model:
@@ -84,16 +87,40 @@ def model_of(case: Case) -> Model:
     ModelError
         For parameters outside what the equations allow.
     """
+    grid = grid_of(case)
+    wall = wall_on_grid(case, grid)
+    settings = case.solver
+    exponent = settings.profile_exponent if isinstance(settings, SemiImplicitSolver) else None
     return Model(
-        grid=grid_of(case),
+        grid=grid,
         radius=case.geometry.radius,
         density=case.blood.density,
         viscosity=case.blood.viscosity,
-        reference_pressure=case.wall.reference_pressure,
-        stiffness=stiffness_of(case),
-        inlet=Inlet(case.inlet.kind, inlet_waveform(case)),
-        outlet=ResistanceOutlet(case.outlet.resistance, case.outlet.offset, case.outlet.flow),
+        reference_pressure=wall.reference_pressure,
+        stiffness=wall.stiffness,
+        inlet=inlet_of(case),
+        outlet=outlet_of(case),
+        wall_table=wall.table,
+        fixed_exponent=exponent,
     )
+
+
+def initial_state(case: Case, model: Model) -> State:
+    """State from which a case starts: blood at rest at P₀, or the steady state of t = 0.
+
+    Raises
+    ------
+    RunFailure
+        If the steady state cannot be reached.
+    """
+    if case.solver.start == "rest":
+        return uniform_state(model, model.reference_pressure, 0.0)
+    return steady_state(model, float(model.inlet.signal(0.0)))
+
+
+def error_tolerance(case: Case) -> float | None:
+    """Relative error of a step that the case asks for; None for a fixed time step."""
+    return case.solver.error_tolerance if isinstance(case.solver, SemiImplicitSolver) else None
 
 
 def default_output_times(case: Case) -> NDArray[np.float64]:

@@ -21,8 +21,8 @@ class Grid:
             raise ModelError(f"n_x = {self.n_x}; allowed: 3 or more cells along the artery")
         if self.n_phi != 1 and self.n_phi < 4:
             raise ModelError(f"n_phi = {self.n_phi}; allowed: 1 (the 1D model) or 4 and more")
-        if not self.length > 0:
-            raise ModelError(f"length = {self.length} m; allowed: a positive length")
+        if not (np.isfinite(self.length) and self.length > 0):
+            raise ModelError(f"length = {self.length} m; allowed: a positive, finite length")
 
     @property
     def dx(self) -> float:

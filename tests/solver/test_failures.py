@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, PATTERNS, SECTION_OUTLET, artery
 
+from solver.boundary import ResistanceOutlet
 from solver.errors import (
     ModelError,
     NoAdmissibleProfile,
@@ -13,9 +14,10 @@ from solver.errors import (
     SolverError,
     WallCollapse,
 )
-from solver.model import ResistanceOutlet, State, uniform_state
+from solver.model import State, uniform_state
 from solver.result import to_dataset
-from solver.simulate import Stepper, Trajectory, simulate, steady_state
+from solver.simulate import Trajectory, simulate
+from solver.stepper import Stepper
 from solver.waveform import Waveform
 
 
@@ -126,12 +128,25 @@ def test_a_state_that_is_not_a_number_gives_no_result(field):
 
 @pytest.mark.parametrize(
     "changes",
-    [{"outlet": ResistanceOutlet(1e9, np.nan, "section")}, {"reference_pressure": np.nan}],
-    ids=["outlet", "wall"],
+    [
+        {"reference_pressure": np.nan},
+        {"reference_pressure": np.inf},
+        {"density": np.inf},
+        {"radius": np.inf},
+        {"viscosity": np.nan},
+        {"length": np.inf},
+    ],
+    ids=str,
 )
-def test_a_pressure_that_is_not_a_number_gives_no_result(changes):
-    with pytest.raises(SolverError):
-        steady_state(artery(12, 8, **changes), DIASTOLE)
+def test_a_model_refuses_what_is_not_finite(changes):
+    with pytest.raises(ModelError):
+        artery(12, 8, **changes)
+
+
+@pytest.mark.parametrize("values", [(1e9, np.nan), (np.inf, 9330.0), (np.nan, 9330.0), (1e9, np.inf)])
+def test_an_outlet_refuses_what_is_not_finite(values):
+    with pytest.raises(ModelError):
+        ResistanceOutlet(*values)
 
 
 def test_a_failed_step_does_not_touch_the_state():

@@ -28,8 +28,8 @@ def test_the_model_holds_what_the_case_states(variant_of):
     assert (model.density, model.viscosity, model.reference_pressure) == (1060, pytest.approx(0.003), 0)
     assert (model.outlet.resistance, model.outlet.offset, model.outlet.flow) == (1.358e9, 9330, "section")
     np.testing.assert_allclose(model.stiffness, HEALTHY)
-    assert model.inlet_velocity.period == pytest.approx(0.2)
-    assert model.inlet_velocity(0.05) == pytest.approx(0.2)
+    assert model.inlet.signal.period == pytest.approx(0.2)
+    assert model.inlet.signal(0.05) == pytest.approx(0.2)
 
 
 def test_the_wall_law_is_the_cases(variant_of):
@@ -57,8 +57,8 @@ def test_smooth_edges_keep_the_patch_and_widen_its_stiffness(variant_of):
 def test_a_constant_inlet(variant_of):
     case = variant_of("healthy", ("waveform: inlet.csv", "value: 10 cm/s, period: 0.8 s"))
     model = model_of(case)
-    assert model.inlet_velocity.period == pytest.approx(0.8)
-    np.testing.assert_allclose(model.inlet_velocity(np.linspace(0, 2, 9)), 0.1)
+    assert model.inlet.signal.period == pytest.approx(0.8)
+    np.testing.assert_allclose(model.inlet.signal(np.linspace(0, 2, 9)), 0.1)
 
 
 def test_output_times(variant_of):
@@ -75,6 +75,6 @@ def test_the_shipped_case_is_runnable():
     for case in shipped.variants.values():
         model = model_of(case)
         assert model.stiffness.shape == (120, 48)
-        np.testing.assert_allclose(model.inlet_velocity(0.2), thesis_waveform()(0.2))
+        np.testing.assert_allclose(model.inlet.signal(0.2), thesis_waveform()(0.2))
     assert calcified_cells(shipped.variants["local"]).sum() == 40 * 12
     assert calcified_cells(shipped.variants["axisymmetric"]).sum() == 40 * 48

@@ -6,9 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from thesis_artery import HEALTHY, RADIUS, artery, pressure
 
+from solver.boundary import ResistanceOutlet
 from solver.errors import ModelError
 from solver.grid import Grid
-from solver.model import ResistanceOutlet, uniform_state
+from solver.model import uniform_state
 
 
 @given(st.floats(1e-3, 1.0), st.integers(3, 60), st.one_of(st.just(1), st.integers(4, 60)))

@@ -6,9 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from thesis_artery import HEALTHY, PATTERNS, SECTION_OUTLET, artery, patched, thesis_waveform
 
+from solver.boundary import ResistanceOutlet
 from solver.grid import Grid
-from solver.model import ResistanceOutlet
-from solver.simulate import Stepper, lumen_volume, simulate, steady_state
+from solver.simulate import simulate
+from solver.steady import steady_state
+from solver.stepper import Stepper, lumen_volume
 
 WAVEFORM = thesis_waveform()
 

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from thesis_artery import DENSITY, HEALTHY, LENGTH, RADIUS, artery, pressure
 
-from solver.model import ResistanceOutlet, uniform_state
-from solver.simulate import Stepper
+from solver.boundary import ResistanceOutlet
+from solver.model import uniform_state
+from solver.stepper import Stepper
 
 MEAN, AMPLITUDE = 9330.0, 10.0
 

@@ -6,8 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from thesis_artery import HEALTHY, RADIUS, artery, pressure
 
-from solver.model import ResistanceOutlet, uniform_state
-from solver.simulate import Stepper
+from solver.boundary import ResistanceOutlet
+from solver.model import uniform_state
+from solver.stepper import Stepper
 from solver.wall import pressure_from_area
 
 LOAD = 9330.0

@@ -26,8 +26,10 @@ from thesis_artery import (
     thesis_waveform,
 )
 
-from solver.model import ResistanceOutlet, uniform_state
-from solver.simulate import simulate, steady_state
+from solver.boundary import ResistanceOutlet
+from solver.model import uniform_state
+from solver.simulate import simulate
+from solver.steady import steady_state
 
 
 def balance(flow, area, inlet_area, x, viscosity):

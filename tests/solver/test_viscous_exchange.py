@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from solver.profiles import continuity_exponent, momentum_correction
-from solver.schemes import semi_implicit as scheme
+from solver.schemes.profile import closure_source
 
 KINEMATIC_VISCOSITY = 0.003 / 1060
 MEAN_AREA = 7e-6
@@ -38,7 +38,7 @@ def kernel(area, velocity):
     axis = 2 * velocity.mean()
     dphi = 2 * np.pi / rows
     arguments = (ghosted, 1 / area, velocity, axis, np.empty(rows + 2), KINEMATIC_VISCOSITY, dphi)
-    scheme._profile_source(alpha, source, *arguments)
+    closure_source(alpha, source, *arguments)
     return alpha, source
 
 

@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from cases.waveform_file import read_waveform
+from solver.boundary import Inlet, ResistanceOutlet
 from solver.calcification import Patch, calcified_stiffness, scaled_distance
 from solver.grid import Grid
-from solver.model import Model, ResistanceOutlet
+from solver.model import Model
 from solver.wall import pressure_from_area
 from solver.waveform import Waveform, constant
 
@@ -54,7 +55,7 @@ def artery(n_x, n_phi, *, outlet=SECTION_OUTLET, inlet=None, patch=None, stiffne
         "viscosity": VISCOSITY,
         "reference_pressure": 0.0,
         "stiffness": patched(grid, patch) if stiffness is None else stiffness,
-        "inlet_velocity": constant(DIASTOLE, 1.0) if inlet is None else inlet,
+        "inlet": Inlet("velocity", constant(DIASTOLE, 1.0) if inlet is None else inlet),
         "outlet": outlet,
     }
     return Model(**(values | changes))

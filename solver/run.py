@@ -1,0 +1,176 @@
+"""Run a case in pieces, so that memory stays bounded and an interrupted run can go on bit by bit equal.
+
+Every few states the run leaves a piece beside the result file: what was asked for since the last piece, and
+the whole state at its end. The result is written from the pieces when the last one is there.
+"""
+
+import hashlib
+import os
+import shutil
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+
+from cases.schema import Case
+from solver.errors import SolverError
+from solver.files import write_netcdf
+from solver.from_case import default_output_times, error_tolerance, initial_state, model_of
+from solver.model import Model, State
+from solver.result import to_dataset
+from solver.simulate import Snapshot, Trajectory, collect, snapshots
+
+PIECE = 25  # states
+
+Progress = Callable[[float, float], None]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Consecutive states of a run, and the state at their end."""
+
+    trajectory: Trajectory
+    end: State
+
+
+def pieces_folder(result: Path) -> Path:
+    """Folder of the pieces of a result file."""
+    return result.with_name(result.name + ".pieces")
+
+
+def run_identity(text: str, variant: str) -> str:
+    """Digest of what must not change between a run and its continuation."""
+    try:
+        own = version("arterial-rom-validation")
+    except PackageNotFoundError:
+        own = "unknown"
+    return hashlib.sha256(f"{own}\0{variant}\0{text}".encode()).hexdigest()
+
+
+def run_to_file(
+    case: Case, result: Path, identity: str, attributes: dict[str, Any], resume: bool, progress: Progress
+) -> dict[str, Any]:
+    """Run a case and write its result file.
+
+    Parameters
+    ----------
+    case : Case
+    result : Path
+        NetCDF file to write.
+    identity : str
+        From :func:`run_identity`.
+    attributes : dict
+        Global attributes to add.
+    resume : bool
+        Go on from the pieces of an interrupted run; else they are removed.
+    progress : callable
+        Called with (time reached, last time).
+
+    Returns
+    -------
+    dict
+        Global attributes of the result.
+
+    Raises
+    ------
+    SolverError
+        If a run fails, pieces belong to another run, or a file cannot be written.
+    """
+    folder = _prepare(pieces_folder(result), identity, resume)
+    model, times = model_of(case), default_output_times(case)
+    done = sorted(folder.glob("*.npz"))
+    last = _read(model, done[-1]) if done else None
+    start = initial_state(case, model) if last is None else last.end
+    first = 0 if last is None else int(np.searchsorted(times, last.end.time))
+    taken: list[Snapshot] = []
+    steps = sweeps = 0
+    walk = snapshots(model, times[first:], case.solver.time_step, start, error_tolerance(case))
+    for number, snapshot in enumerate(walk, start=first):
+        if last is None or number > first:
+            taken.append(snapshot)
+        progress(snapshot.state.time, float(times[-1]))
+        if len(taken) == PIECE or (number == times.size - 1 and taken):
+            piece = collect(model, taken)
+            own = replace(piece, steps=piece.steps - steps, sweeps=piece.sweeps - sweeps)
+            _write(folder / f"{number:08d}.npz", own, snapshot.state)
+            taken, steps, sweeps = [], piece.steps, piece.sweeps
+    attributes = _join(model, sorted(folder.glob("*.npz")), result, attributes)
+    shutil.rmtree(folder)
+    return attributes
+
+
+def _prepare(folder: Path, identity: str, resume: bool) -> Path:
+    mark = folder / "identity"
+    if resume:
+        if not mark.is_file():
+            raise SolverError(f"{folder}: no interrupted run to resume; run without --resume")
+        if mark.read_text(encoding="ascii") != identity:
+            raise SolverError(f"{folder}: belongs to another case, variant or version; run without --resume")
+        return folder
+    try:
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        mark.write_text(identity, encoding="ascii")
+    except OSError as error:
+        raise SolverError(f"{folder}: cannot be written: {error.strerror or error}") from error
+    return folder
+
+
+_ARRAYS = ("times", "area", "pressure", "flow", "mass_defect")
+_NUMBERS = ("steps", "sweeps", "longest_step")
+
+
+def _write(path: Path, trajectory: Trajectory, end: State) -> None:
+    values = {name: getattr(trajectory, name) for name in (*_ARRAYS, *_NUMBERS)}
+    values |= {f"end_{part.name}": getattr(end, part.name) for part in fields(State)}
+    partial = path.with_suffix(".part")
+    try:
+        with partial.open("wb") as stream:
+            np.savez(stream, **values)
+            stream.flush()
+            os.fsync(stream.fileno())
+        partial.replace(path)
+    except OSError as error:
+        raise SolverError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def _read(model: Model, path: Path) -> Piece:
+    with np.load(path) as stored:
+        arrays = {name: stored[name] for name in _ARRAYS}
+        numbers = {name: stored[name].item() for name in _NUMBERS}
+        end = {part.name: stored[f"end_{part.name}"] for part in fields(State)}
+    end |= {name: float(end[name]) for name in ("time", "reservoir")}
+    return Piece(Trajectory(model=model, **arrays, **numbers), State(**end))
+
+
+def _join(model: Model, paths: list[Path], result: Path, attributes: dict[str, Any]) -> dict[str, Any]:
+    """Write the result from its pieces, one in memory at a time."""
+    partial = result.with_name(f".{result.name}.{os.getpid()}.part")
+    steps = sweeps = 0
+    longest = 0.0
+    try:
+        for path in paths:
+            trajectory = _read(model, path).trajectory
+            steps, sweeps = steps + trajectory.steps, sweeps + trajectory.sweeps
+            longest = max(longest, trajectory.longest_step)
+            total = replace(trajectory, steps=steps, sweeps=sweeps, longest_step=longest)
+            dataset = to_dataset(total).assign_attrs(attributes)
+            if path == paths[0]:
+                write_netcdf(dataset, partial, unlimited=("time",))
+            else:
+                with netCDF4.Dataset(partial, "a") as stored:
+                    count = stored.dimensions["time"].size
+                    for name in (str(n) for n in dataset.variables if "time" in dataset[n].dims):
+                        stored[name][count:] = dataset[name].to_numpy()
+        with netCDF4.Dataset(partial, "a") as stored:
+            stored.setncatts({"steps": steps, "iteration_sweeps": sweeps, "time_step_s": longest})
+        partial.replace(result)
+    except OSError as error:
+        raise SolverError(f"{result}: cannot be written: {error.strerror or error}") from error
+    finally:
+        partial.unlink(missing_ok=True)
+    return {"steps": steps, "time_step_s": longest}

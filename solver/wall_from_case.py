@@ -1,0 +1,115 @@
+"""The wall of a checked case on the grid: β in every cell, and a table for a nonlinear law."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from cases.calcification import AxialTransition, LocalCalcification, NoCalcification, PatchTransition
+from cases.schema import Case
+from cases.wall import HomogeneousWall, LayeredWall, TableWall
+from solver.calcification import Patch, calcified_stiffness, scaled_distance
+from solver.finite_strain import inflation_curve
+from solver.grid import Grid
+from solver.layered_wall import Layer, layered_wall_stiffness
+from solver.wall import WALL_LAWS, thick_wall_stiffness, wall_stiffness
+from solver.wall_table import MasterCurve, WallTable, wall_table
+
+# loads that a nonlinear wall is tabulated for, as shares of the healthy Young's modulus
+LOWEST_LOAD, HIGHEST_LOAD = -0.04, 0.12
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class WallOnGrid:
+    """β in every cell (n_x, n_phi), Pa m, P₀, Pa, and the table of a nonlinear law."""
+
+    stiffness: Floats
+    reference_pressure: float
+    table: WallTable | None = None
+
+
+def patch_of(case: Case) -> Patch | None:
+    """Calcified rectangle of a case; None for a healthy wall."""
+    stated = case.calcification
+    if isinstance(stated, NoCalcification):
+        return None
+    transition = stated.transition
+    return Patch(
+        x=stated.x,
+        phi=stated.phi if isinstance(stated, LocalCalcification) else None,
+        x_transition=transition.x if isinstance(transition, AxialTransition | PatchTransition) else None,
+        phi_transition=transition.phi if isinstance(transition, PatchTransition) else None,
+    )
+
+
+def _over_patch(case: Case, grid: Grid, healthy: float, calcified: float) -> Floats:
+    """Value that is ``calcified`` in the patch, ``healthy`` far from it, with the transition between."""
+    patch = patch_of(case)
+    if patch is None:
+        return np.full((grid.n_x, grid.n_phi), healthy)
+    return calcified_stiffness(healthy, calcified, scaled_distance(grid, patch))
+
+
+def _modulus(case: Case, grid: Grid, healthy: float) -> Floats:
+    """Young's modulus of a calcifying material in every cell, Pa."""
+    stated = case.calcification
+    calcified = healthy if isinstance(stated, NoCalcification) else stated.youngs_modulus
+    return _over_patch(case, grid, healthy, calcified)
+
+
+def wall_on_grid(case: Case, grid: Grid) -> WallOnGrid:
+    """Wall of a case.
+
+    Raises
+    ------
+    ModelError
+        If the law is known for no pressure of interest.
+    """
+    wall, geometry = case.wall, case.geometry
+    if isinstance(wall, LayeredWall):
+        layers = [
+            Layer(
+                layer.thickness,
+                _modulus(case, grid, layer.youngs_modulus) if layer.calcifies else layer.youngs_modulus,
+            )
+            for layer in wall.layers
+        ]
+        stiffness = layered_wall_stiffness(layers, geometry.radius, wall.poisson_ratio)
+        return WallOnGrid(np.broadcast_to(stiffness, (grid.n_x, grid.n_phi)).copy(), wall.reference_pressure)
+    modulus = _modulus(case, grid, wall.youngs_modulus)
+    if isinstance(wall, TableWall):
+        return _tabulated(case, wall, modulus)
+    if wall.law in WALL_LAWS:
+        stiffness = wall_stiffness(
+            wall.law, modulus, geometry.radius, geometry.wall_thickness, wall.poisson_ratio
+        )
+        return WallOnGrid(stiffness, wall.reference_pressure)
+    return _finite_strain(case, wall, modulus)
+
+
+def _finite_strain(case: Case, wall: HomogeneousWall, modulus: Floats) -> WallOnGrid:
+    geometry, healthy = case.geometry, wall.youngs_modulus
+    sizes = (wall.poisson_ratio, geometry.radius, geometry.wall_thickness)
+    low, high = LOWEST_LOAD * healthy, HIGHEST_LOAD * healthy
+    curve = inflation_curve(wall.law, healthy, *sizes, low, high)
+    stiffness = thick_wall_stiffness(modulus, geometry.radius, geometry.wall_thickness, wall.poisson_ratio)
+    start = wall.reference_pressure
+    table = wall_table(curve, modulus / healthy, start, start + low, start + high)
+    return WallOnGrid(stiffness, start, table)
+
+
+def _tabulated(case: Case, wall: TableWall, modulus: Floats) -> WallOnGrid:
+    """User's P(R), its loads scaled by E; P₀ is its pressure at the unloaded radius."""
+    radius = case.geometry.radius
+    pressure_of = PchipInterpolator(wall.table.radii, wall.table.pressures)
+    start = float(pressure_of(radius))
+    relative = modulus / wall.youngs_modulus
+    loads = wall.table.pressures - start
+    radius_of = PchipInterpolator(loads, wall.table.radii)
+    curve = MasterCurve(loads, wall.table.radii, radius_of.derivative()(loads))
+    stiffness = relative * radius**2 / float(radius_of.derivative()(0.0))
+    table = wall_table(curve, relative, start, start + float(loads[0]), start + float(loads[-1]))
+    return WallOnGrid(stiffness, start, table)

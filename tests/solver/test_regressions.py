@@ -1,0 +1,82 @@
+"""What once went wrong, and must not again."""
+
+import numpy as np
+import pytest
+from thesis_artery import DIASTOLE, RING, SECTOR, artery
+
+from solver.boundary import ResistanceOutlet
+from solver.calcification import Patch, scaled_distance
+from solver.errors import ModelError, NotFinite
+from solver.grid import Grid
+from solver.model import uniform_state
+from solver.simulate import simulate
+from solver.steady import steady_state
+from solver.stepper import Stepper, parameters
+from solver.waveform import Waveform, local_minima
+
+
+@pytest.mark.parametrize("n_phi", [4, 84, 100, 164])
+def test_sharp_patch_symmetric(n_phi):
+    inside = scaled_distance(Grid(0.015, 3, n_phi), Patch(RING, SECTOR))[1] == 0
+    np.testing.assert_array_equal(inside, inside[::-1])
+
+
+def test_steady_state_at_rest():
+    state = steady_state(artery(12, 4), 0.0)
+    assert np.max(np.abs(state.flow)) < 1e-15
+
+
+def test_nan_state_is_not_finite():
+    model = artery(12, 8)
+    state = uniform_state(model, 9330.0, DIASTOLE)
+    state.area[5, 2] = np.nan
+    with pytest.raises((NotFinite, ModelError)):
+        Stepper(model, state).advance(np.array([DIASTOLE]), 1e-3, 0.52)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_parameters_finite(bad):
+    for make in (
+        lambda: ResistanceOutlet(1e9, bad),
+        lambda: ResistanceOutlet(bad, 0.0),
+        lambda: artery(12, 4, reference_pressure=bad),
+        lambda: artery(12, 4, density=bad),
+        lambda: artery(12, 4, viscosity=bad),
+        lambda: artery(12, 4, length=bad),
+    ):
+        with pytest.raises(ModelError):
+            make()
+
+
+def test_initial_of_another_grid():
+    with pytest.raises(ModelError):
+        simulate(artery(12, 8), [0.0, 0.1], 1e-3, uniform_state(artery(12, 4), 9330.0, DIASTOLE))
+
+
+def test_infinite_time():
+    with pytest.raises(ModelError):
+        simulate(artery(12, 4), [0.0, np.inf], 1e-3)
+
+
+def test_integers_are_the_same_kernel():
+    whole = parameters(artery(12, 4, outlet=ResistanceOutlet(10**9, 9330), density=1060))
+    assert all(isinstance(getattr(whole, n), float) for n in ("density", "resistance"))
+
+
+@pytest.mark.parametrize(
+    ("times", "values"),
+    [([0, 0.5, 1.0], [1.0, 2.0, 1.5]), ([0, 0.5, np.inf], [1.0, 2.0, 1.0]), ([0.0, 1.0], [1.0, 2.0, 1.0])],
+)
+def test_waveform_closed(times, values):
+    with pytest.raises(ModelError):
+        Waveform(np.array(times), np.array(values))
+
+
+def test_minima():
+    falling = Waveform(np.array([0, 0.2, 0.4, 0.6, 0.8, 1.0]), np.array([1.0, 3.0, 2.0, 2.0, 0.5, 1.0]))
+    np.testing.assert_allclose(local_minima(falling), [0.8], atol=1e-3)
+
+
+def test_collapsed_uniform_state():
+    with pytest.raises(ModelError):
+        uniform_state(artery(12, 4), -2e5, 0.0)
