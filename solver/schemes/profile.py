@@ -1,6 +1,5 @@
 """Velocity profiles on one face: u, the closure's D, α and the viscous source S (numba kernels)."""
 
-import numpy as np
 from numba import njit
 
 from solver.schemes.layout import REST_VELOCITY, Array

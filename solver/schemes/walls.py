@@ -1,6 +1,5 @@
 """A(P) and dA/dP of the wall, row by row (numba kernels)."""
 
-import numpy as np
 from numba import njit
 
 from solver.schemes.layout import BEYOND_WALL_TABLE, OK, WALL_COLLAPSE, Array, Parameters
