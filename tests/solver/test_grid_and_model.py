@@ -28,7 +28,7 @@ def test_cells_fill_the_artery(length, n_x, n_phi):
         ((0.015, 2, 8), "n_x = 2; allowed: 3 or more"),
         ((0.015, 12, 0), "n_phi = 0; allowed: 1"),
         ((0.015, 12, 3), "n_phi = 3; allowed: 1"),
-        ((0.0, 12, 8), "length = 0.0 m; allowed: a positive length"),
+        ((0.0, 12, 8), "length = 0.0 m; allowed: a positive, finite length"),
         ((-1.0, 12, 8), "length = -1.0 m"),
         ((np.nan, 12, 8), "length = nan m"),
     ],

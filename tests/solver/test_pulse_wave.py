@@ -8,7 +8,7 @@ import pytest
 from thesis_artery import DENSITY, HEALTHY, LENGTH, RADIUS, artery, pressure
 
 from solver.boundary import ResistanceOutlet
-from solver.model import uniform_state
+from solver.model import State, uniform_state
 from solver.stepper import Stepper
 
 MEAN, AMPLITUDE = 9330.0, 10.0
@@ -19,14 +19,14 @@ def closed_tube(n_x, n_phi, by):
     model = artery(n_x, n_phi, outlet=ResistanceOutlet(1e18, MEAN, by), viscosity=0.0)
     state = uniform_state(model, MEAN, 0.0)
     load = MEAN + AMPLITUDE * np.cos(np.pi * model.grid.x / LENGTH)
-    state.area[:] = ((RADIUS + load * RADIUS**2 / HEALTHY) ** 2)[:, None]
-    return Stepper(model, state)
+    area = ((RADIUS + load * RADIUS**2 / HEALTHY) ** 2)[:, None] * np.ones(n_phi)
+    return Stepper(model, State(0.0, area, state.flow))
 
 
 def amplitude(stepper):
     """Component of P along cos(πx/L), Pa."""
     mode = np.cos(np.pi * stepper.model.grid.x / LENGTH)
-    return 2 * np.mean(pressure(stepper.model, stepper.state.area).mean(axis=1) * mode)
+    return 2 * np.mean(pressure(stepper.model, stepper.state().area).mean(axis=1) * mode)
 
 
 def wave_speed():

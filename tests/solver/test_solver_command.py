@@ -1,5 +1,6 @@
 """``python -m solver``: one NetCDF file, or one line that says why not."""
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,9 @@ import pytest
 import xarray as xr
 
 import solver.__main__ as command
+import solver.run as running
 from cases.fields import FIELDS
+from solver.run import pieces_folder
 
 ROOT = Path(__file__).parents[2]
 VARIABLES = {
@@ -145,6 +148,8 @@ def test_a_wrong_value(run, case_file):
 def test_a_run_that_fails(run, case_file):
     case_file.with_name("inlet.csv").write_text("t_s,mean_velocity_cm_s\n0,8\n0.05,-8\n0.2,8\n")
     answer = run(case_file, "--variant", "patch", "--output", case_file.with_name("run.nc"))
+    assert pieces_folder(case_file.with_name("run.nc")).is_dir()  # what was reached stays
+    shutil.rmtree(pieces_folder(case_file.with_name("run.nc")))
     refused(answer, case_file.parent, "no admissible velocity-profile exponent", "t = 0.0", "i = ", "j = ")
 
 
@@ -165,19 +170,30 @@ def test_an_output_that_cannot_be_written(run, case_file):
     status, text, errors = run(case_file, "--variant", "healthy", "--output", output)
     assert (status, text) == (2, "")
     assert errors.count("\n") == 1
-    assert "run.nc: cannot be written: " in errors
+    assert "run.nc: is a folder, not a result file" in errors
     names = sorted(path.name for path in case_file.parent.iterdir())
     assert names == ["inlet.csv", "run.nc", "short.yaml"]
 
 
-def test_an_interrupt_leaves_nothing(run, case_file, monkeypatch):
+def test_an_interrupt_leaves_what_a_resumed_run_needs(run, case_file, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(command, "simulate", interrupted)
-    status, text, errors = run(case_file, "--variant", "patch", "--output", case_file.with_name("run.nc"))
-    assert (status, text, errors) == (130, "", "interrupted; nothing was written\n")
-    assert sorted(path.name for path in case_file.parent.iterdir()) == ["inlet.csv", "short.yaml"]
+    output = case_file.with_name("run.nc")
+    with monkeypatch.context() as patched:
+        patched.setattr(running, "snapshots", interrupted)
+        status, text, errors = run(case_file, "--variant", "patch", "--output", output)
+    kept = pieces_folder(output)
+    assert (status, text) == (130, "")
+    assert errors == f"interrupted; --resume goes on from the last piece in {kept}\n"
+    assert sorted(path.name for path in case_file.parent.iterdir()) == [
+        "inlet.csv",
+        "run.nc.pieces",
+        "short.yaml",
+    ]
+    assert [path.name for path in kept.iterdir()] == ["identity"]
+    assert run(case_file, "--variant", "patch", "--output", output, "--resume")[0] == 0
+    assert sorted(path.name for path in case_file.parent.iterdir()) == ["inlet.csv", "run.nc", "short.yaml"]
 
 
 def test_the_only_variant_needs_no_name(run, case_file):

@@ -114,7 +114,7 @@ def test_a_given_initial_state_is_used_and_kept():
     np.testing.assert_array_equal(result.times, [0.5, 0.52])
 
 
-def test_progress_is_told_after_every_interval():
+def test_progress_is_told_at_every_state():
     seen = []
     simulate(artery(12, 4), [0.0, 0.01, 0.02], 1e-3, progress=lambda done, total: seen.append((done, total)))
-    assert seen == [(0.01, 0.02), (0.02, 0.02)]
+    assert seen == [(0.0, 0.02), (0.01, 0.02), (0.02, 0.02)]

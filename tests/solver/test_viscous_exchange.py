@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from solver.profiles import continuity_exponent, momentum_correction
-from solver.schemes.profile import closure_source
+from solver.schemes.ends import face_area
+from solver.schemes.layout import FLOW_INLET, PRESSURE_INLET, VELOCITY_INLET
+from solver.schemes.profile import closure_source, fixed_source
 
 KINEMATIC_VISCOSITY = 0.003 / 1060
 MEAN_AREA = 7e-6
@@ -81,17 +83,20 @@ def test_a_section_at_rest_feels_poiseuille_friction():
     """The limit of slow equal rows."""
     area = MEAN_AREA * np.array([1.0, 1.1, 0.9, 1.0])
     alpha, source = np.empty(4), np.empty(4)
-    scheme._rest_source(alpha, source, 1 / area, KINEMATIC_VISCOSITY)
+    fixed_source(alpha, source, 1 / area, 2.0, KINEMATIC_VISCOSITY)
     np.testing.assert_allclose(alpha, 4 / 3)
     np.testing.assert_allclose(source, -8 * KINEMATIC_VISCOSITY / area)
 
 
-def test_areas_of_faces_are_exact_where_the_area_is_linear():
+@pytest.mark.parametrize(
+    ("kind", "inlet"), [(VELOCITY_INLET, 10.0), (FLOW_INLET, 10.0), (PRESSURE_INLET, 9.0)]
+)
+def test_areas_of_faces_are_exact_where_the_area_is_linear(kind, inlet):
+    """Half a cell beyond the first; at a pressure inlet, that of the end's own pressure."""
     x = np.arange(6) + 0.5
     slopes = np.array([0.0, 0.1, -0.2, 0.3])
-    mean, outlet = 10 + np.outer(x, slopes), 10 + 6 * slopes
+    mean, ends = 10 + np.outer(x, slopes), np.array([np.full(4, 9.0), 10 + 6 * slopes])
     for face in range(7):
-        area = np.empty(6)
-        scheme._face_area(face, mean, outlet, area)
-        row = 10 + face * slopes
-        np.testing.assert_allclose(area, [row[-1], *row, row[0]], rtol=1e-14)
+        area = np.empty(4)
+        face_area(mean, ends, kind, face, area)
+        np.testing.assert_allclose(area, 10 + face * slopes if face else np.full(4, inlet), rtol=1e-14)
