@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
@@ -16,7 +18,7 @@ from febio_io.errors import FebioError
 from reports import ReportError, write_reports
 from solver.errors import SolverError
 from solver.files import write_netcdf
-from solver.from_case import inlet_waveform
+from solver.from_case import inlet_signal
 from validation import metrics
 from validation.bands import FAIL, MISSING, OK, band_rows
 from validation.comparison import VariantRun, check_variants, combine
@@ -34,8 +36,6 @@ def variant_rows(comparison: xr.Dataset, name: str, run: VariantRun) -> list[Row
     """All rows of one variant, its bands' among them."""
     models = models_of(comparison, name)
     cells = (comparison.attrs["compare_i"], comparison.attrs["compare_j"])
-    offset = run.reference.alignment.cycle_times
-    prescribed = inlet_waveform(run.case)(offset) * run.reference.checks["inlet_area"].to_numpy()
     return [
         *band_rows(models, run.case),
         *metrics.pooled_rows(models),
@@ -44,8 +44,17 @@ def variant_rows(comparison: xr.Dataset, name: str, run: VariantRun) -> list[Row
         *metrics.value_rows(models, cells, comparison.attrs["compare_times_s"]),
         *metrics.cycle_error_rows(models, cells),
         *metrics.dominance_rows(models, cells),
-        *metrics.flow_check_rows(models, run.reference.checks, prescribed),
+        *metrics.plane_rows(models, run.reference.checks),
+        *metrics.inflow_rows(models, run.reference.checks, prescribed_inflow(run)),
     ]
+
+
+def prescribed_inflow(run: VariantRun) -> NDArray[np.float64] | None:
+    """Flow rate that the case prescribes at the 3D inlet, m³/s; None where it prescribes pressure."""
+    signal = inlet_signal(run.case)(run.reference.alignment.cycle_times)
+    if run.case.inlet.kind == "velocity":
+        return np.asarray(signal * run.reference.checks["inlet_area"].to_numpy())
+    return signal if run.case.inlet.kind == "flow" else None
 
 
 def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:

@@ -9,7 +9,7 @@ import xarray as xr
 
 from cases.case_file import CaseFile
 from cases.schema import Case, NoCalcification
-from solver.from_case import calcified_cells, inlet_waveform
+from solver.from_case import calcified_cells, inlet_signal
 from solver.result import CONVENTIONS
 from solver.waveform import local_minima
 from validation.errors import ValidationError
@@ -42,7 +42,7 @@ def compare_times(case: Case, times: np.ndarray) -> tuple[list[str], list[int]]:
     Named instants come from the inlet waveform: systole is its maximum, the troughs its local minima
     after it. Each becomes the nearest state.
     """
-    waveform = inlet_waveform(case)
+    waveform = inlet_signal(case)
     fine = np.linspace(0.0, waveform.period, 4001)
     minima = local_minima(waveform)
     instants = {"systole": float(fine[np.argmax(waveform(fine))]), "end diastole": waveform.period}

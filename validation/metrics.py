@@ -184,29 +184,25 @@ def dominance_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row
                 yield models.row(quantity, "value", i=int(i), j=int(j), reference=ratio)
 
 
-def flow_check_rows(models: Models, checks: xr.Dataset, prescribed: Floats) -> Iterator[Row]:
-    """3D flow rates against independent ones: planes cut by VTK, and the prescribed inflow.
-
-    ``rom`` is empty; ``reference`` is the ray quadrature (plane_integral) or the surface integral over the
-    inlet (prescribed_inflow), ``error`` its deviation relative to the independent value.
-    """
+def plane_rows(models: Models, checks: xr.Dataset) -> Iterator[Row]:
+    """3D section flow by rays (``reference``), and its deviation from planes cut by VTK (``error``)."""
     by_rays = models.reference["section_flow_rate"]
     times, stations = models.reference["time"].to_numpy(), models.reference["x"].to_numpy()
     for t, at_time in zip(checks["check_time"].to_numpy(), checks["plane_flow_rate"].to_numpy(), strict=True):
         for x, plane in zip(checks["check_x"].to_numpy(), at_time, strict=True):
             n, i = int(np.argmin(np.abs(times - t))), int(np.argmin(np.abs(stations - x)))
             q = float(by_rays[n, i])
-            yield models.row(
-                "section_flow_rate",
-                "plane_integral",
-                i=i + 1,
-                t_s=float(t),
-                reference=q,
-                error=_single(q, plane),
-            )
+            place = {"i": i + 1, "t_s": float(t), "reference": q}
+            yield models.row("section_flow_rate", "plane_integral", error=_single(q, plane), **place)
+
+
+def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -> Iterator[Row]:
+    """3D inflow by surface integral (``reference``), and its deviation from the prescribed one (``error``)."""
+    if prescribed is None:
+        return
     inflow = checks["inlet_flow_rate"].to_numpy()
     error = relative_error(inflow, prescribed)
-    for n, t in enumerate(times):
+    for n, t in enumerate(models.reference["time"].to_numpy()):
         yield models.row(
             "section_flow_rate",
             "prescribed_inflow",

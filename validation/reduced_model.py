@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from cases.schema import Case
-from solver.from_case import model_of
+from solver.from_case import error_tolerance, initial_state, model_of
 from solver.profiles import axis_ratio, shape
 from solver.result import to_dataset
 from solver.simulate import simulate
@@ -58,7 +58,10 @@ def run_reduced_model(
     begin, end = (cycles - 1) * period, cycles * period
     milestones = np.linspace(0.0, begin, 10 * (cycles - 1) + 1)
     times = np.unique(np.concatenate([milestones, alignment.rom_times, [end]]))
-    trajectory = simulate(model_of(case), times, case.solver.time_step, progress=progress)
+    model = model_of(case)
+    trajectory = simulate(
+        model, times, case.solver.time_step, initial_state(case, model), progress, error_tolerance(case)
+    )
     dataset = to_dataset(trajectory)
     kept = dataset.sel(time=alignment.rom_times)
     values = {name: kept[name].to_numpy() for name in COMPARED}
