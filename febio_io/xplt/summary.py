@@ -118,7 +118,10 @@ def _states(states: Summary) -> str:
     if not states["count"]:
         return "none"
     status = ", ".join(f"{count} with status {value}" for value, count in states["status"].items())
-    return f"{states['count']}, time {states['times'][0]:g} to {states['times'][-1]:g}; {status}"
+    first, last = (
+        "not a number" if time is None else f"{time:g}" for time in (states["times"][0], states["times"][-1])
+    )
+    return f"{states['count']}, time {first} to {last}; {status}"
 
 
 def _mesh_lines(mesh: Summary) -> Iterator[str]:

@@ -34,6 +34,16 @@ def test_text_names_what_is_there(write, capsys):
         assert part in text
 
 
+def test_times_that_are_no_numbers(write, capsys):
+    states = [Writer().state(time) for time in (float("nan"), 1)]
+    path = str(write(Writer().file(Writer().root(), Writer().mesh(MESH), *states)))
+    assert main([path]) == 0
+    assert "2, time not a number to 1;" in capsys.readouterr().out
+    assert main([path, "--json"]) == 0
+    summary = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert summary["states"]["times"] == [None, 1]
+
+
 def test_json_is_for_programs(write, capsys):
     assert main([str(write(sample_file()[:-1])), "--json"]) == 0
     summary = json.loads(capsys.readouterr().out)

@@ -3,6 +3,8 @@
 import numpy as np
 from xplt_writer import DomainOf, FacesOf, Item, MeshOf, Writer, compressed
 
+from febio_io.xplt.tags import Tag
+
 CUBE = [4, 5, 6, 7, 0, 1, 2, 3]
 MESH = MeshOf(
     coordinates=np.array(
@@ -45,3 +47,38 @@ def sample_sections(*, order: str = "<", zlib: bool = False, states: int = 3) ->
 
 def sample_file(**options) -> bytes:
     return Writer(options.get("order", "<")).file(*sample_sections(**options))
+
+
+def rich_file() -> bytes:
+    """Write a file with objects, eroded elements, and values of every section and storage."""
+    writer = Writer()
+    items = [
+        Item("global", "energy", "float", "node"),
+        Item("node", "displacement", "vec3f", "node"),
+        *(Item("domain", name, kind, name) for name, kind in (("node", "float"), ("mult", "mat3fs"))),
+        Item("domain", "array", "array", "item", array_size=2, array_names=["a", "b"]),
+        Item("surface", "flow", "float", "region"),
+        Item("edge", "load", "array_vec3f", "item", array_size=1),
+    ]
+    place = [
+        writer.integer(Tag.OBJECT_ID, 1),
+        writer.counted(Tag.OBJECT_NAME, "Body"),
+        writer.chunk(Tag.OBJECT_POSITION, writer.floats([0, 0, 0])),
+        writer.chunk(Tag.OBJECT_ROTATION, writer.floats([0, 0, 0, 1])),
+    ]
+    force = writer.chunk(Tag.OBJECT_DATA, writer.item(Item("", "Force", "vec3f"))[8:])
+    data = writer.chunk(Tag.OBJECT_DATA, writer.chunk(0, writer.floats([1, 2, 3])))
+    objects = writer.chunk(Tag.OBJECTS_SECTION, writer.chunk(Tag.POINT_OBJECT, *place, force))
+    values = {
+        ("global", 1): {0: [1.0]},
+        ("node", 1): {0: range(36)},
+        ("domain", 1): {2: range(4)},
+        ("domain", 2): {3: range(36)},
+        ("domain", 3): {1: range(4)},
+        ("surface", 1): {1: [5.0]},
+        ("edge", 1): {1: range(6)},
+    }
+    state = writer.state(0, values)[8:]
+    state += writer.chunk(Tag.MESH_STATE, writer.chunk(Tag.ELEMENT_STATE, writer.ints(1, 0, 1, 1, 1)))
+    state += writer.chunk(Tag.OBJECTS_STATE, writer.chunk(Tag.POINT_OBJECT, *place, data))
+    return writer.file(writer.root(items), writer.mesh(MESH, objects), writer.chunk(Tag.STATE, state))

@@ -33,6 +33,20 @@ def quick(monkeypatch):
     monkeypatch.setattr(compare, "write_reports", lambda directory: None)
 
 
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A case against a small tube, which a second suffices for."""
+    plot = write_tube(tmp_path_factory.mktemp("tube") / "tube.xplt", SHORT, np.linspace(0.0, 0.79, 5))
+
+    def case(*declared):
+        content = bands(small_case("none"), *declared)
+        content["reference"] |= {"lumen": ["Blood"], "wall": ["Wall"], "time_offset": "0 s"}
+        content["variants"]["none"]["reference"]["plot_file"] = str(plot)
+        return content
+
+    return case
+
+
 @pytest.fixture
 def refused(tmp_path, capsys, quick):
     """Run a case that must be refused; give its one line."""
@@ -177,22 +191,22 @@ def output_checksum(path):
     ("band", "options", "status"),
     [(IMPOSSIBLE, ["--check"], 1), (GENEROUS, ["--check"], 0), (IMPOSSIBLE, [], 0)],
 )
-def test_exit_status_follows_the_bands_if_asked(tmp_path, quick, capsys, band, options, status):
-    path = written(bands(small_case("none"), band), tmp_path)
+def test_exit_status_follows_the_bands_if_asked(tmp_path, quick, capsys, band, options, status, made):
+    path = written(made(band), tmp_path)
     assert compare.main([str(path), "--output", str(tmp_path / "result"), *options]) == status
     verdict = "1 FAIL" if band == IMPOSSIBLE else "1 OK"
     assert capsys.readouterr().out.startswith(f"calcification: bands: {verdict}; report: ")
 
 
-def test_a_missing_quantity_breaks_its_band(tmp_path, quick, monkeypatch):
+def test_a_missing_quantity_breaks_its_band(tmp_path, quick, monkeypatch, made):
     monkeypatch.setattr("validation.bands.judged_value", lambda models, band: None)
-    path = written(bands(small_case("none"), GENEROUS), tmp_path)
+    path = written(made(GENEROUS), tmp_path)
     assert compare.main([str(path), "--output", str(tmp_path / "result"), "--check"]) == 1
     assert pd.read_csv(tmp_path / "result/metrics.csv")["status"].dropna().tolist() == ["MISSING"]
 
 
-def test_a_case_without_bands_is_complete(tmp_path, quick, capsys):
-    path = written(bands(small_case("none")), tmp_path)
+def test_a_case_without_bands_is_complete(tmp_path, quick, capsys, made):
+    path = written(made(), tmp_path)
     assert compare.main([str(path), "--output", str(tmp_path / "result"), "--check"]) == 0
     assert "bands: none declared" in capsys.readouterr().out
 
@@ -224,8 +238,8 @@ def test_a_false_reference_changes_just_the_rows_that_speak_of_it(tmp_path, quic
 
 
 class TestTarget:
-    def test_a_result_is_replaced_whole(self, tmp_path, quick):
-        path, result = written(bands(small_case("none")), tmp_path), tmp_path / "result"
+    def test_a_result_is_replaced_whole(self, tmp_path, quick, made):
+        path, result = written(made(), tmp_path), tmp_path / "result"
         for _ in range(2):
             assert compare.main([str(path), "--output", str(result)]) == 0
             (result / "left over").touch()
@@ -233,49 +247,49 @@ class TestTarget:
         assert not (result / "left over").exists()
         assert {item.name for item in tmp_path.iterdir()} == {path.name, result.name}
 
-    def test_an_empty_directory_is_used(self, tmp_path, quick):
+    def test_an_empty_directory_is_used(self, tmp_path, quick, made):
         (tmp_path / "result").mkdir()
-        path = written(bands(small_case("none")), tmp_path)
+        path = written(made(), tmp_path)
         assert compare.main([str(path), "--output", str(tmp_path / "result")]) == 0
         assert (tmp_path / "result/metrics.csv").is_file()
 
-    def test_a_directory_of_something_else_is_refused(self, tmp_path, capsys, monkeypatch):
+    def test_a_directory_of_something_else_is_refused(self, tmp_path, capsys, monkeypatch, made):
         monkeypatch.setattr(compare, "compare_case", lambda *_: pytest.fail("something was computed"))
         keep = tmp_path / "result" / "thesis.txt"
         keep.parent.mkdir()
         keep.write_text("precious")
-        path = written(bands(small_case("none")), tmp_path)
+        path = written(made(), tmp_path)
         assert compare.main([str(path), "--output", str(keep.parent)]) == 2
         assert capsys.readouterr().err.endswith("is no result of a comparison; choose another --output\n")
         assert keep.read_text() == "precious"
         assert {item.name for item in tmp_path.iterdir()} == {path.name, "result"}
 
     @pytest.mark.parametrize("below", [".", "deeper/result"])
-    def test_a_file_in_the_way_is_refused(self, tmp_path, capsys, quick, below):
+    def test_a_file_in_the_way_is_refused(self, tmp_path, capsys, quick, below, made):
         (tmp_path / "result").write_text("precious")
-        path = written(bands(small_case("none")), tmp_path)
+        path = written(made(), tmp_path)
         assert compare.main([str(path), "--output", str(tmp_path / "result" / below)]) == 2
         assert len(capsys.readouterr().err.splitlines()) == 1
         assert (tmp_path / "result").read_text() == "precious"
 
     @pytest.mark.xfail(reason="an empty current directory cannot be replaced")
-    def test_the_current_directory_is_used_or_refused(self, tmp_path, capsys, quick, monkeypatch):
-        path = written(bands(small_case("none")), tmp_path)
+    def test_the_current_directory_is_used_or_refused(self, tmp_path, capsys, quick, monkeypatch, made):
+        path = written(made(), tmp_path)
         (tmp_path / "here").mkdir()
         monkeypatch.chdir(tmp_path / "here")
         assert compare.main([str(path), "--output", "."]) in (0, 2)
         assert {item.name for item in tmp_path.iterdir()} == {path.name, "here"}
 
-    def test_several_cases_go_side_by_side(self, tmp_path, quick, capsys):
-        first, second = bands(small_case("none")), bands(small_case("none"))
+    def test_several_cases_go_side_by_side(self, tmp_path, quick, capsys, made):
+        first, second = made(), made()
         second["name"] = "second"
         paths = [written(first, tmp_path, "a.yaml"), written(second, tmp_path, "b.yaml")]
         assert compare.main([*map(str, paths), "--output", str(tmp_path / "both")]) == 0
         assert {item.name for item in (tmp_path / "both").iterdir()} == {"calcification", "second"}
         assert len(capsys.readouterr().out.splitlines()) == 2
 
-    def test_cases_of_one_name_are_refused(self, tmp_path, quick, capsys):
-        path = str(written(bands(small_case("none")), tmp_path))
+    def test_cases_of_one_name_are_refused(self, tmp_path, quick, capsys, made):
+        path = str(written(made(), tmp_path))
         assert compare.main([path, path, "--output", str(tmp_path / "both")]) == 2
         assert "case names must differ" in capsys.readouterr().err
         assert not (tmp_path / "both").exists()
@@ -435,9 +449,9 @@ class TestInterrupt:
             (compare, "write_reports"),
         ],
     )
-    def test_nothing_is_left(self, tmp_path, capsys, monkeypatch, module, name):
+    def test_nothing_is_left(self, tmp_path, capsys, monkeypatch, module, name, made):
         monkeypatch.setattr(module, name, interrupt)
-        path = written(bands(small_case()), tmp_path)
+        path = written(made(), tmp_path)
         old = tmp_path / "result"
         old.mkdir()
         (old / output.MARK).write_text("{}")

@@ -1,0 +1,109 @@
+"""What febio_fuzz.py feeds to the readers: the tests' samples, and how each kind of file is read whole."""
+
+import random
+import struct
+import sys
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "febio_io"))
+
+from log_samples import sample_log
+from xplt_samples import ITEMS, MESH, rich_file, sample_file, sample_sections, state_values
+from xplt_writer import Writer
+
+from febio_io.data_records import read_data_record
+from febio_io.log import read_log
+from febio_io.xplt import open_plot
+from febio_io.xplt.summary import summarize, summary_lines
+from febio_io.xplt.tags import Tag
+
+WRITER = Writer()
+NUMBERS = [0, 1, 2, 3, 4, 7, 8, 0x7F, 0xFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFF0, 0xFFFFFFFF, *map(int, Tag)]
+WORDS = [b"*Step  = 1\n", b"*Time  = 0.5\n", b"nan", b"-1.#IND", b"1e999", b"9" * 40, b"\n", b";", b"\0"]
+
+
+class Kind(NamedTuple):
+    """One kind of input: name, reader, what is put around the damaged bytes, whole samples, weight."""
+
+    name: str
+    read: Callable[[Path], None]
+    around: Callable[[bytes], bytes]
+    samples: list[bytes]
+    weight: int
+
+
+def read_plot(path: Path) -> None:
+    with open_plot(path) as plot:
+        "\n".join(summary_lines(summarize(plot)))
+        for state in range(plot.n_states):
+            plot.active_elements(state)
+            plot.objects(state)
+            for variable in plot.variables:
+                for region in plot.regions(variable, state):
+                    plot.field(variable, state, region)
+        plot.to_xarray()
+
+
+def read_text_log(path: Path) -> None:
+    log = read_log(path)
+    log.steps_table()
+    for record in log.records:
+        if record.file is None:
+            log.data_record(record.number).to_pandas()
+
+
+def read_record(path: Path) -> None:
+    record = read_data_record(path)
+    record.to_pandas()
+    record.to_xarray()
+
+
+def around_state(content: bytes) -> bytes:
+    """Put the (damaged) bytes of a state into a compressed state."""
+    return WRITER.file(WRITER.root(ITEMS), WRITER.mesh(MESH), zlib.compress(content, 1))
+
+
+def unchanged(content: bytes) -> bytes:
+    return content
+
+
+def kinds() -> list[Kind]:
+    """List the kinds of input."""
+    raw, packed = sample_file(states=2), sample_file(zlib=True, states=2)
+    remeshed = WRITER.file(*sample_sections(states=1), WRITER.mesh(MESH), WRITER.state(1, state_values(1)))
+    plots = [raw, packed, sample_file(order=">", states=1), remeshed, rich_file()]
+    blocks = [b"*Step  = %d\n*Time  = %g\n*Data  = x;y\n1 2 3\n4,5,nan\n" % (k, k / 8) for k in range(4)]
+    return [
+        Kind("plot file", read_plot, unchanged, plots, 5),
+        Kind("compressed state", read_plot, around_state, [WRITER.state(0, state_values(0))], 2),
+        Kind("log", read_text_log, unchanged, [sample_log().encode()], 1),
+        Kind("data record", read_record, unchanged, [b"".join(blocks), b"1 2\n2 3\n1 4\n2 5\n"], 2),
+    ]
+
+
+def mutate(content: bytes, random_: random.Random) -> bytes:
+    """Damage some bytes: overwrite, cut, drop, repeat, insert."""
+    result = bytearray(content)
+    for _ in range(random_.choice((1, 1, 1, 2, 3, 8))):
+        at = random_.randrange(max(len(result), 1))
+        match random_.randrange(7):
+            case 0:
+                result[at : at + 1] = bytes([random_.randrange(256)])
+            case 1:
+                result[at : at + 4] = struct.pack(random_.choice("<>") + "I", random_.choice(NUMBERS))
+            case 2:
+                aligned = at & ~3
+                result[aligned : aligned + 4] = struct.pack("<I", random_.choice(NUMBERS))
+            case 3:
+                del result[at:]
+            case 4:
+                del result[at : at + random_.randrange(1, 40)]
+            case 5:
+                other = random_.randrange(max(len(result), 1))
+                result[at:at] = result[other : other + random_.randrange(1, 200)]
+            case _:
+                result[at:at] = random_.choice(WORDS)
+    return bytes(result)
