@@ -60,7 +60,7 @@ def plaque(phi_transition: float) -> Patch:
 
 
 def artery(n_x: int, n_phi: int, time_step: float, patch: Patch | None, **changes: Any) -> Setup:
-    """Set-up with the diastolic velocity at the inlet and the steady outlet; ``changes`` are its fields."""
+    """Set up diastolic velocity at the inlet and the steady outlet; ``changes`` are fields of the set-up."""
     grid = Grid(LENGTH, n_x, n_phi)
     resistance, offset = STEADY_OUTLET
     values: dict[str, Any] = {
@@ -79,11 +79,11 @@ def artery(n_x: int, n_phi: int, time_step: float, patch: Patch | None, **change
     return Setup(**(values | changes))
 
 
-def calcifying(setup: Setup, begin: float, duration: float) -> dict[str, Any]:
-    """Fields of a set-up whose wall grows from healthy over ``duration`` s (3.3.2)."""
+def calcifying(n_phi: int, duration: float) -> dict[str, Any]:
+    """Fields of a set-up with n_x = 120 whose wall grows from healthy over ``duration`` s (3.3.2)."""
     return {
-        "wall_before": smooth_wall(setup.grid, None, HEALTHY, CALCIFIED),
-        "wall_load": load(begin, begin + duration, 0.0, 1.0),
+        "wall_before": smooth_wall(Grid(LENGTH, 120, n_phi), None, HEALTHY, CALCIFIED),
+        "wall_load": load(0.0, duration, 0.0, 1.0),
     }
 
 

@@ -92,8 +92,7 @@ def velocity_inlet(n_x: int, transition: float) -> Result:
 
 def local_calcification(n_phi: int, transition: float) -> Result:
     """ε_Q of the steady state with local calcification, whose wall grows from the healthy steady state."""
-    setup = artery(120, n_phi, FINE_STEP, plaque(transition))
-    growing = artery(120, n_phi, FINE_STEP, plaque(transition), **calcifying(setup, 0.0, WALL_RAMP), **PRINTED)
+    growing = artery(120, n_phi, FINE_STEP, plaque(transition), **calcifying(n_phi, WALL_RAMP), **PRINTED)
     steady = march_to_steady(
         growing,
         repeated(healthy_steady_state(STEADY_OUTLET), n_phi),
