@@ -60,16 +60,16 @@ def export_plot(
 
     chosen = pick_variables(plot, variables)
     numbers = pick_states(plot, states)
+    if file_format in ("vtu", "vtkhdf"):
+        from febio_io.export_vtk import write_vtkhdf, write_vtu
+
+        write = write_vtu if file_format == "vtu" else write_vtkhdf
+    else:
+        from febio_io.export_tables import write_plot_csv, write_plot_nc
+
+        write = write_plot_csv if file_format == "csv" else write_plot_nc
     written: list[Path] = []
     with staged(folder, written) as temporary:
-        if file_format in ("vtu", "vtkhdf"):
-            from febio_io.export_vtk import write_vtkhdf, write_vtu
-
-            write = write_vtu if file_format == "vtu" else write_vtkhdf
-        else:
-            from febio_io.export_tables import write_plot_csv, write_plot_nc
-
-            write = write_plot_csv if file_format == "csv" else write_plot_nc
         write(plot, temporary, chosen, numbers, advance)
     return written
 

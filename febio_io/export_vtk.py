@@ -1,8 +1,12 @@
 """Writes plot files for ParaView: a .vtu file for each state and a .pvd file, or one VTKHDF file."""
 
-from collections.abc import Callable
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import FrameType
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
@@ -74,7 +78,8 @@ def write_vtkhdf(
         writer.SetInputConnection(source.GetOutputPort())
         writer.SetFileName(str(path))
         writer.SetWriteAllTimeSteps(True)
-        done = writer.Write()
+        with _interrupts_kept(source):
+            done = writer.Write()
         if source.failure is not None:
             raise source.failure
         if not done or not path.is_file():
@@ -115,7 +120,7 @@ class _StateSource(VTKPythonAlgorithmBase):
         )
         self._states = dict(zip(times, part.states, strict=True))
         self._grid, self._advance = part.grid, advance
-        self._made = pv.UnstructuredGrid()
+        self._made = part.grid(part.states[0])  # VTK's writer needs a mesh, whatever fails later
         self.failure: BaseException | None = None
 
     def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:
@@ -127,7 +132,7 @@ class _StateSource(VTKPythonAlgorithmBase):
         return 1
 
     def RequestData(self, _request: Any, _inputs: Any, outputs: Any) -> int:
-        """Make the mesh. VTK cannot pass on an exception: it is kept, and what follows stays empty."""
+        """Make the mesh. VTK cannot pass on an exception: it is kept, and the last mesh comes again."""
         key = vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
         information = outputs.GetInformationObject(0)
         time = information.Get(key) if information.Has(key) else next(iter(self._states))
@@ -141,6 +146,23 @@ class _StateSource(VTKPythonAlgorithmBase):
         output.ShallowCopy(self._made)
         output.GetInformation().Set(output.DATA_TIME_STEP(), time)
         return 1
+
+
+@contextmanager
+def _interrupts_kept(source: _StateSource) -> Iterator[None]:
+    """Keep a Ctrl-C like any failure: VTK would swallow it where it calls back."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # interrupts go to the main thread only
+        return
+
+    def keep(_number: int, _frame: FrameType | None) -> None:
+        source.failure = KeyboardInterrupt()
+
+    before = signal.signal(signal.SIGINT, keep)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _parts(plot: Plot, variables: tuple[Variable, ...], states: list[int]) -> list[_Part]:

@@ -1,6 +1,7 @@
 """Writing in other formats: what is written, and that nothing is left half written."""
 
 import os
+import signal
 
 import numpy as np
 import pandas as pd
@@ -161,6 +162,13 @@ def test_an_interrupt_leaves_nothing_half_written(plot, tmp_path, file_format):
         export_plot(plot, folder, file_format, advance=interrupt)
     assert names(folder) == ["case.pvd"]
     assert (folder / "case.pvd").read_text() == "before"
+
+
+def test_an_interrupt_within_vtk_is_not_lost(plot, tmp_path):
+    with pytest.raises(KeyboardInterrupt):
+        export_plot(plot, tmp_path / "out", "vtkhdf", advance=lambda: signal.raise_signal(signal.SIGINT))
+    assert not (tmp_path / "out").exists()
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 @pytest.mark.parametrize("file_format", FORMATS)
