@@ -38,7 +38,9 @@ def write_netcdf(dataset: xr.Dataset, path: Path, unlimited: tuple[str, ...] = (
     try:
         dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding, unlimited_dims=unlimited)
         partial.replace(path)
-    except OSError as error:
-        raise SolverError(f"{path}: cannot be written: {error.strerror or error}") from error
+    except (OSError, RuntimeError) as error:  # netCDF reports a full disk as RuntimeError
+        raise SolverError(
+            f"{path}: cannot be written: {getattr(error, 'strerror', None) or error}"
+        ) from error
     finally:
         partial.unlink(missing_ok=True)

@@ -88,8 +88,8 @@ def _tube(
         stress=lambda r, t: law(lam, mu, r, t),
         position=position,
         weight=0.5 * thickness * weights * position,
-        value=legendre.legvander(points, DEGREE),
-        slope=legendre.legval(points, legendre.legder(identity)).T * 2 / thickness,
+        value=np.asarray(legendre.legvander(points, DEGREE), dtype=float),
+        slope=np.asarray(legendre.legval(points, legendre.legder(identity)).T * 2 / thickness, dtype=float),
         inner=legendre.legvander(np.array([-1.0]), DEGREE)[0],
     )
 
@@ -111,7 +111,7 @@ def _equilibrium(tube: _Tube, pressure: float, start: Floats) -> tuple[Floats, F
         if not np.all(np.isfinite(c)) or np.any(tube.slope @ c <= 0) or tube.inner @ c <= 0:
             return None
         if np.max(np.abs(change)) < CONVERGED * np.max(np.abs(c)):
-            return c, np.linalg.solve(hessian, inner * tube.inner)
+            return c, np.asarray(np.linalg.solve(hessian, inner * tube.inner), dtype=float)
     return None
 
 

@@ -48,7 +48,7 @@ def _signal(waveform: Samples | None, value: float | None, period: float) -> Sig
 
 
 def inlet_signal(case: Case) -> Signal:
-    """What is prescribed at the inlet over time, SI, without its ramp."""
+    """Return what is prescribed at the inlet over time, SI, without its ramp."""
     inlet: PrescribedInlet = case.inlet
     if inlet.fourier is not None:
         series = inlet.fourier

@@ -14,11 +14,12 @@ from pathlib import Path
 import numba
 
 FOLDER = "arterial-rom-validation"
+KERNELS = ("solver/schemes", "validation")  # every folder with kernels: they share one cache
 
 
 def sources_digest(folders: Iterable[Path]) -> str:
     """Digest of all Python sources in folders, names and contents."""
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(numba.__version__.encode())
     for path in sorted(path for folder in folders for path in folder.glob("*.py")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
@@ -26,7 +27,7 @@ def sources_digest(folders: Iterable[Path]) -> str:
 
 def _candidates() -> list[Path]:
     stated = os.environ.get("XDG_CACHE_HOME")
-    home = Path(os.path.expanduser("~"))
+    home = Path("~").expanduser()
     own = f"{FOLDER}-{os.getuid()}" if hasattr(os, "getuid") else FOLDER
     caches = [Path(stated)] if stated else []
     return [*(cache / FOLDER for cache in [*caches, home / ".cache"]), Path(tempfile.gettempdir()) / own]
@@ -40,15 +41,16 @@ def _usable(folder: Path) -> bool:
     return os.access(folder, os.W_OK | os.X_OK)
 
 
-def keep_kernels(folders: Iterable[Path]) -> None:
-    """Tell numba where to keep kernels compiled from the sources in ``folders``.
+def keep_kernels() -> None:
+    """Tell numba where to keep compiled kernels; call before a module with kernels is imported.
 
     Without any writable place numba keeps to its own choice. An NUMBA_CACHE_DIR that the user set stands.
     """
     if "NUMBA_CACHE_DIR" in os.environ:
         return
-    digest = sources_digest(folders)
+    root = Path(__file__).parents[1]
+    digest = sources_digest(root / folder for folder in KERNELS)
     for candidate in _candidates():
         if _usable(candidate / digest):
-            numba.config.CACHE_DIR = str(candidate / digest)
+            numba.config.CACHE_DIR = str(candidate / digest)  # type: ignore[attr-defined]
             return

@@ -76,7 +76,7 @@ class Model:
             raise ModelError(f"exponent = {exponent}; allowed: positive and finite")
 
     def area(self, pressure: Floats | float) -> Floats:
-        """A = R² in every cell at a pressure (broadcast to the grid), m².
+        """Return A = R² in every cell at a pressure (broadcast to the grid), m².
 
         Raises
         ------
@@ -125,11 +125,19 @@ class State:
 
     def copy(self) -> "State":
         """Return an independent copy."""
-        arrays = [
-            None if part is None else part.copy()
-            for part in (self.pressure, self.inlet_pressure, self.outlet_pressure)
-        ]
-        return State(self.time, self.area.copy(), self.flow.copy(), *arrays, self.reservoir)
+
+        def copied(part: Floats | None) -> Floats | None:
+            return None if part is None else part.copy()
+
+        return State(
+            self.time,
+            self.area.copy(),
+            self.flow.copy(),
+            copied(self.pressure),
+            copied(self.inlet_pressure),
+            copied(self.outlet_pressure),
+            self.reservoir,
+        )
 
 
 def uniform_state(model: Model, pressure: float, velocity: float) -> State:

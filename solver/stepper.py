@@ -128,7 +128,7 @@ def lumen_volume(model: Model, area: Floats) -> float:
 
 
 def offsets(model: Model, times: ArrayLike) -> Floats:
-    """What the outlet prescribes at times: P_res, or the pressure itself, Pa; 0 where it has none."""
+    """Return what the outlet prescribes at times: P_res, or the pressure itself, Pa; 0 where it has none."""
     times = np.asarray(times, dtype=float)
     outlet = model.outlet
     if isinstance(outlet, PressureOutlet):

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
 from solver.errors import ModelError
-from solver.schemes.walls import BEYOND_WALL_TABLE, tabulated_area
+from solver.schemes.layout import BEYOND_WALL_TABLE
+from solver.schemes.walls import tabulated_area
 
 POINTS = 129  # per cell
 
@@ -53,10 +54,10 @@ class WallTable:
     @property
     def end(self) -> float:
         """Last pressure, Pa."""
-        return self.start + (self.values.shape[2] - 1) * self.step
+        return float(self.start + (self.values.shape[2] - 1) * self.step)
 
     def area(self, pressure: Floats) -> Floats:
-        """A = R² of every cell at pressures (n_x, n_phi), m².
+        """Return A = R² of every cell at pressures (n_x, n_phi), m².
 
         Raises
         ------
@@ -94,7 +95,7 @@ class WallTable:
             middle = 0.5 * (low + high)
             small = self.area(middle) < area
             low, high = np.where(small, middle, low), np.where(small, high, middle)
-        return 0.5 * (low + high)
+        return np.asarray(0.5 * (low + high))
 
 
 def wall_table(

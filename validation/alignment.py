@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from validation.errors import UnusableReferenceError
 
 SLACK = 1e-3  # share of a cycle by which a state may miss the cycle's ends
+WHOLE = 0.95  # share of a cycle between first and last state from which it counts as whole
+LOOK_BACK = 50  # cycles searched for a whole one
 
 
 @dataclass(frozen=True)
@@ -29,21 +31,21 @@ class Alignment:
         The same instants in the reduced model's last cycle, s.
     cycles_later : int
         Whole cycles by which the reduced model's time runs ahead of the reference's.
+    coverage : float
+        Share of the cycle between the first and the last state.
     """
 
     states: NDArray[np.int64]
     cycle_times: NDArray[np.float64]
     rom_times: NDArray[np.float64]
     cycles_later: int
-
-    @property
-    def coverage(self) -> float:
-        """Seconds between the first and the last state."""
-        return float(self.cycle_times[-1] - self.cycle_times[0])
+    coverage: float
 
 
 def align(times: NDArray[np.float64], offset: float, period: float, cycles: int) -> Alignment:
     """Choose the states of the last cycle that the reference covers.
+
+    That is the last whole cycle, if there is one, else the cycle covered best.
 
     Parameters
     ----------
@@ -59,23 +61,45 @@ def align(times: NDArray[np.float64], offset: float, period: float, cycles: int)
     Raises
     ------
     UnusableReferenceError
-        If fewer than three distinct instants lie in the last cycle.
+        If a time is not finite, or fewer than three distinct instants lie in that cycle.
     """
     phase = (np.asarray(times, dtype=float) - offset) / period
-    last = int(np.ceil(np.max(phase, initial=-np.inf) - SLACK)) - 1 if len(phase) else 0
-    within = phase - last
-    chosen = np.flatnonzero(within > -SLACK)
-    order = chosen[np.argsort(within[chosen], kind="stable")]
-    distinct = order[np.append(np.diff(within[order]) > SLACK / 10, True)]
-    if distinct.size < 3:
+    if not np.all(np.isfinite(phase)):
+        raise UnusableReferenceError("a state's time is not finite")
+    cycle, states = _best_cycle(phase)
+    if states.size < 3:
         raise UnusableReferenceError(
-            f"{distinct.size} states in the last cycle (period {period:g} s, offset {offset:g} s); "
-            "allowed: 3 or more"
+            f"states in the last cycle: {states.size}, allowed: 3 or more "
+            f"(reference.time_offset {offset:g} s, period of the inlet {period:g} s)"
         )
-    cycle_times = np.maximum(within[distinct] * period, 0.0)
+    cycle_times = np.maximum((phase[states] - cycle) * period, 0.0)
     return Alignment(
-        states=distinct.astype(np.int64),
+        states=states,
         cycle_times=cycle_times,
         rom_times=cycle_times + (cycles - 1) * period,
-        cycles_later=cycles - 1 - last,
+        cycles_later=cycles - 1 - cycle,
+        coverage=float(cycle_times[-1] - cycle_times[0]) / period if states.size else 0.0,
     )
+
+
+def _best_cycle(phase: NDArray[np.float64]) -> tuple[int, NDArray[np.int64]]:
+    """Return the number of the last whole cycle, else of the one covered best, and its states in order."""
+    best, covered, chosen = 0, -1.0, np.empty(0, dtype=np.int64)
+    if not phase.size:
+        return best, chosen
+    last = int(np.ceil(phase.max() - SLACK)) - 1
+    for cycle in range(last, max(int(np.floor(phase.min())), last - LOOK_BACK) - 1, -1):
+        states = _states_of(phase - cycle)
+        span = float(np.ptp(phase[states])) if states.size else -1.0
+        if span > covered + SLACK:
+            best, covered, chosen = cycle, span, states
+        if covered >= WHOLE:
+            break
+    return best, chosen
+
+
+def _states_of(within: NDArray[np.float64]) -> NDArray[np.int64]:
+    """States of one cycle in order of time, each instant once."""
+    inside = np.flatnonzero((within > -SLACK) & (within < 1 + SLACK))
+    order = inside[np.argsort(within[inside], kind="stable")]
+    return order[np.diff(within[order], append=np.inf) > SLACK / 10].astype(np.int64)

@@ -2,10 +2,10 @@
 
 import argparse
 import shlex
+import signal
 import sys
-from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,20 +13,19 @@ from numpy.typing import NDArray
 
 from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
-from cases.schema import Case
 from febio_io.errors import FebioError
 from reports import ReportError, write_reports
 from solver.errors import SolverError
 from solver.files import write_netcdf
 from solver.from_case import inlet_signal
 from validation import metrics
+from validation.account import described
 from validation.bands import FAIL, MISSING, OK, band_rows
-from validation.comparison import VariantRun, check_variants, combine
+from validation.comparison import VariantRun, at_common_instants, check_variants, combine
 from validation.errors import ValidationError
 from validation.metrics import Row, models_of
 from validation.output import check_target, result_directory, write_json, write_metrics
-from validation.provenance import provenance
-from validation.run import Watch, run_variants, watching
+from validation.run import run_variants, watching
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
 COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -57,71 +56,20 @@ def prescribed_inflow(run: VariantRun) -> NDArray[np.float64] | None:
     return signal if run.case.inlet.kind == "flow" else None
 
 
-def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
-    """Say what a reader must know, each thing once."""
-    notes = [note for run in runs.values() for note in run.reference.notes]
-    for name, run in runs.items():
-        later = run.reference.alignment.cycles_later
-        covered = run.reference.alignment.coverage / run.case.inlet.period
-        notes.append(
-            f"{name}: instants are matched within the cycle; the reduced model's time runs {later} whole "
-            f"cycles ahead of the reference's, whose states cover {covered:.1%} of its last cycle"
-        )
-        notes.append(
-            f"{name}: pressure and flow rate of the reduced model change by at most "
-            f"{run.rom.cycle_change:.1e} (relative) from the start to the end of the last cycle"
-        )
-    viscosities = sorted({run.case.blood.viscosity for run in runs.values()})
-    stated = ", ".join(f"{value:g}" for value in viscosities)
-    notes.append(
-        f"viscosity of the reduced model: {stated} Pa s; the plot file does not state the reference's"
-    )
-    return list(dict.fromkeys(notes))
+@dataclass(frozen=True)
+class Outcome:
+    """Rows of the declared bands, and warnings that cast doubt on them."""
+
+    bands: list[Row]
+    warnings: list[str]
 
 
-def described(
-    file: CaseFile, runs: Mapping[str, VariantRun], watch: Watch, command: list[str]
-) -> dict[str, Any]:
-    """Provenance of a finished comparison."""
-    inputs = [path for case in file.variants.values() for path in input_files(case)]
-    bands = [band for case in file.variants.values() for band in case.compare.bands]
-    return provenance(file.path, inputs, command) | {
-        "wall_times_s": watch.wall_times,
-        "notes": notes_of(runs),
-        "variants": {
-            name: {"rom": run.rom.description, "reference": run.reference.description}
-            for name, run in runs.items()
-        },
-        "bands": [
-            {
-                "quantity": band.quantity,
-                "statistic": band.statistic,
-                "limit": band.limit,
-                "reason": band.reason,
-                "variants": None if band.variants is None else list(band.variants),
-            }
-            for band in dict.fromkeys(bands)
-        ],
-    }
-
-
-def input_files(case: Case) -> list[Path]:
-    """Files that a case names."""
-    files = []
-    if case.reference is not None:
-        files.append(case.reference.plot_file)
-    if case.inlet.waveform is not None and case.inlet.waveform.path is not None:
-        files.append(case.inlet.waveform.path)
-    return files
-
-
-def compare_case(file: CaseFile, target: Path, command: list[str]) -> list[Row]:
+def compare_case(file: CaseFile, target: Path, command: list[str]) -> Outcome:
     """Run one case file and leave its result in ``target``; see ``harness`` for what that holds.
 
     Returns
     -------
-    list of Row
-        The rows of the declared bands.
+    Outcome
 
     Raises
     ------
@@ -130,7 +78,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str]) -> list[Row]:
     """
     check_variants(file.variants)
     with watching() as watch, result_directory(target) as directory:
-        runs = run_variants(file.variants, watch)
+        runs, notes = at_common_instants(run_variants(file.variants, watch))
         with watch.step("metrics"):
             comparison = combine(file, runs)
             rows = [row for name, run in runs.items() for row in variant_rows(comparison, name, run)]
@@ -138,10 +86,11 @@ def compare_case(file: CaseFile, target: Path, command: list[str]) -> list[Row]:
             write_metrics(directory, metrics.to_frame(rows))
         with watch.step("comparison.nc"):
             write_netcdf(comparison, directory / "comparison.nc")
-        write_json(directory / "provenance.json", described(file, runs, watch, command))
+        account = described(file, runs, watch.wall_times, command, notes)
+        write_json(directory / "provenance.json", account)
         with watch.step("reports"):
             write_reports(directory)
-    return [row for row in rows if row.status]
+    return Outcome([row for row in rows if row.status], account["warnings"])
 
 
 def summary(file: CaseFile, target: Path, bands: list[Row]) -> str:
@@ -188,16 +137,25 @@ def targets(files: list[CaseFile], output: Path | None) -> list[Path]:
     return found
 
 
+def _interrupt(*_: object) -> None:
+    """Let a request to terminate clean up as Ctrl-C does."""
+    raise KeyboardInterrupt
+
+
 def main(argv: list[str] | None = None) -> int:
     """Run the command; return its exit status."""
     argv = sys.argv[1:] if argv is None else argv
     arguments = _arguments(argv)
     command = ["python", "-m", "validation.compare", *map(shlex.quote, argv)]
     broken = False
+    signal.signal(signal.SIGTERM, _interrupt)
     try:
         files = [load_case_file(path) for path in arguments.cases]
         for file, target in zip(files, targets(files, arguments.output), strict=True):
-            bands = compare_case(file, target, command)
+            outcome = compare_case(file, target, command)
+            for warning in outcome.warnings:
+                print(f"warning: {warning}", file=sys.stderr)
+            bands = outcome.bands
             broken |= any(row.status in (FAIL, MISSING) for row in bands)
             print(summary(file, target, bands))
     except EXPECTED as error:

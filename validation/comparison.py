@@ -2,21 +2,20 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from cases.case_file import CaseFile
 from cases.schema import Case, NoCalcification
-from solver.from_case import calcified_cells, inlet_signal
+from solver.from_case import calcified_cells
 from solver.result import CONVENTIONS
-from solver.waveform import local_minima
 from validation.errors import ValidationError
+from validation.instants import common_states, nearest_states, wanted_instants
 from validation.reduced_model import ReducedModelRun
 from validation.reference import Reference
-
-TIME_TOLERANCE = 1e-4  # share of a cycle by which states of two variants may differ
 
 
 @dataclass(frozen=True)
@@ -36,46 +35,27 @@ def baseline_of(file: CaseFile) -> str:
     return ""
 
 
-def compare_times(case: Case, times: np.ndarray) -> tuple[list[str], list[int]]:
-    """Names and state numbers of the instants that the case wants tabulated.
-
-    Named instants come from the inlet waveform: systole is its maximum, the troughs its local minima
-    after it. Each becomes the nearest state.
-    """
-    waveform = inlet_signal(case)
-    fine = np.linspace(0.0, waveform.period, 4001)
-    minima = local_minima(waveform)
-    instants = {"systole": float(fine[np.argmax(waveform(fine))]), "end diastole": waveform.period}
-    instants |= {f"{word} trough": float(t) for word, t in zip(("first", "second"), minima, strict=False)}
-    names, states = [], []
-    for wanted in case.compare.times:
-        if isinstance(wanted, str) and wanted not in instants:
-            raise ValidationError(
-                f"compare.times: the inlet has no {wanted!r}; it has: {', '.join(sorted(instants))}"
-            )
-        instant = instants[wanted] if isinstance(wanted, str) else wanted
-        names.append(wanted if isinstance(wanted, str) else f"{wanted:g} s")
-        states.append(int(np.argmin(np.abs(times - instant))))
-    return names, states
-
-
 def check_variants(cases: Mapping[str, Case]) -> None:
     """Check before any run that variants can share one dataset.
 
     Raises
     ------
     ValidationError
-        If grids or periods differ, or a variant has no reference.
+        If grids, periods or tabulated cells and instants differ, a variant has no reference, or the inlet
+        lacks an instant that is to be tabulated.
     """
     first_name, first = next(iter(cases.items()))
     for name, case in cases.items():
         if case.reference is None:
             raise ValidationError(f"variant {name!r} states no reference: there is nothing to compare with")
+        wanted_instants(case)
         for what, here, there in (
             ("solver.n_x", case.solver.n_x, first.solver.n_x),
             ("solver.n_phi", case.solver.n_phi, first.solver.n_phi),
             ("geometry.length", case.geometry.length, first.geometry.length),
             ("the inlet's period", case.inlet.period, first.inlet.period),
+            ("compare.cells", case.compare.cells, first.compare.cells),
+            ("compare.times", case.compare.times, first.compare.times),
         ):
             if here != there:
                 raise ValidationError(
@@ -84,24 +64,55 @@ def check_variants(cases: Mapping[str, Case]) -> None:
                 )
 
 
-def combine(file: CaseFile, runs: Mapping[str, VariantRun]) -> xr.Dataset:
-    """One dataset on (variant, time, x, phi, y): ``rom_<field>``, ``reference_<field>``, wall.
+def at_common_instants(runs: Mapping[str, VariantRun]) -> tuple[dict[str, VariantRun], list[str]]:
+    """Keep the states at instants that all variants' references have; say what was left out.
 
     Raises
     ------
     ValidationError
-        If the references' states lie at different instants of the cycle.
+        If they share too few.
+    """
+    period = next(iter(runs.values())).case.inlet.period
+    times = [run.reference.alignment.cycle_times for run in runs.values()]
+    kept, notes = {}, []
+    for (name, run), states in zip(runs.items(), common_states(times, period), strict=True):
+        left = run.reference.alignment.cycle_times.size - states.size
+        if left:
+            notes.append(
+                f"{name}: {left} states are left out, at instants that other variants' references lack"
+            )
+        kept[name] = _restricted(run, states)
+    return kept, notes
+
+
+def _restricted(run: VariantRun, states: NDArray[np.int64]) -> VariantRun:
+    reference, alignment = run.reference, run.reference.alignment
+    instants = alignment.cycle_times[states]
+    planes = np.isin(reference.checks["check_time"].to_numpy(), instants)
+    return replace(
+        run,
+        rom=replace(run.rom, fields=run.rom.fields.isel(time=states)),
+        reference=replace(
+            reference,
+            fields=reference.fields.isel(time=states),
+            checks=reference.checks.isel(time=states, check_time=planes),
+            alignment=replace(
+                alignment,
+                states=alignment.states[states],
+                cycle_times=instants,
+                rom_times=alignment.rom_times[states],
+            ),
+        ),
+    )
+
+
+def combine(file: CaseFile, runs: Mapping[str, VariantRun]) -> xr.Dataset:
+    """One dataset on (variant, time, x, phi, y): ``rom_<field>``, ``reference_<field>``, wall.
+
+    The runs share their instants, see :func:`at_common_instants`.
     """
     first = next(iter(runs.values()))
     times = first.reference.alignment.cycle_times
-    for name, run in runs.items():
-        other = run.reference.alignment.cycle_times
-        slack = TIME_TOLERANCE * run.case.inlet.period
-        if other.shape != times.shape or np.max(np.abs(other - times)) > slack:
-            raise ValidationError(
-                f"the reference of variant {name!r} has states at other instants of the cycle than that of "
-                f"{next(iter(runs))!r}; compare it in a case file of its own"
-            )
     stacked = xr.concat(
         [_both_models(run, times) for run in runs.values()],
         dim=xr.Variable("variant", np.array(list(runs), dtype=object)),
@@ -122,7 +133,9 @@ def _both_models(run: VariantRun, times: np.ndarray) -> xr.Dataset:
 
 
 def _described(dataset: xr.Dataset, file: CaseFile, case: Case, times: np.ndarray) -> xr.Dataset:
-    names, states = compare_times(case, times)
+    instants = nearest_states(wanted_instants(case), times)
+    if not instants:
+        raise ValidationError("compare.times: the reference has no state near any of them")
     dataset["time"].attrs = {"units": "s", "long_name": "time in the cycle"}
     dataset["x"].attrs = {"units": "m", "long_name": "distance from the inlet"}
     dataset["phi"].attrs = {"units": "rad", "long_name": "azimuthal angle"}
@@ -135,8 +148,8 @@ def _described(dataset: xr.Dataset, file: CaseFile, case: Case, times: np.ndarra
         "period_s": case.inlet.period,
         "compare_i": np.array(case.compare.cells.i),
         "compare_j": np.array(case.compare.cells.j),
-        "compare_time_names": json.dumps(names),
-        "compare_times_s": times[states],
+        "compare_time_names": json.dumps(list(instants)),
+        "compare_times_s": times[list(instants.values())],
         "case_yaml": file.text,
     }
     return dataset

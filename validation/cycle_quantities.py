@@ -7,8 +7,9 @@ import xarray as xr
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
+from validation.alignment import WHOLE
+
 LARGEST_LAG = 0.1  # share of a cycle searched for a lag
-FULL_CYCLE = 0.97  # share of a cycle that the states must cover for a lag to be found
 
 
 def _pulse(model: xr.Dataset) -> float:
@@ -43,7 +44,7 @@ def phase_lag(rom: xr.Dataset, reference: xr.Dataset, period: float) -> float | 
     states do not cover a cycle.
     """
     times = reference["time"].to_numpy()
-    if times[-1] - times[0] < FULL_CYCLE * period:
+    if times[-1] - times[0] < WHOLE * period:
         return None
     ours = rom["section_flow_rate"].isel(x=-1).to_numpy()
     theirs = reference["section_flow_rate"].isel(x=-1).to_numpy()

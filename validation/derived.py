@@ -26,21 +26,20 @@ def as_dataset(values: dict[str, Floats], rays: Rays, times: Floats) -> xr.Datas
 def derived_fields(mapped: list[MappedState], rays: Rays, times: Floats) -> xr.Dataset:
     """All fields of a reference from its mapped states.
 
-    Sector flow ∫₀^R v_x r dr Δφ runs to the ray's end in the mesh, so that sectors add up to what flows
-    through the mesh; the mean velocity u = 2∫₀¹ v_x y dy does not depend on that end.
+    Sector flow is the mean velocity u = 2∫₀¹ v_x y dy times the area of the mesh's lumen in that sector, so
+    that sectors add up to what flows through the mesh.
     """
     velocity = np.stack([state.velocity for state in mapped]).astype(np.float32)
     axial = velocity[..., 0]
     mean_velocity = np.stack([rays.mean(state.velocity[..., 0]) for state in mapped])
-    chord = np.stack([state.chord for state in mapped])
+    area = np.stack([state.sector_area for state in mapped])
     pressure = np.stack([state.pressure for state in mapped])
-    sector = 0.5 * mean_velocity * chord**2 * rays.dphi
+    sector = 0.5 * mean_velocity * area * rays.dphi
     shape = mean_velocity.shape
     closest = closest_profile(axial.reshape(-1, rays.y.size), rays.y)
     inflow = np.array([state.inflow for state in mapped])
     outflow = np.array([state.outflow for state in mapped])
     wall = np.array([state.wall_flow for state in mapped])
-    area = chord**2
     values = {
         "pressure": pressure,
         "radius": np.stack([state.radius for state in mapped]),
@@ -53,13 +52,21 @@ def derived_fields(mapped: list[MappedState], rays: Rays, times: Floats) -> xr.D
         "axial_velocity": axial,
         "radial_velocity": velocity[..., 1],
         "azimuthal_velocity": velocity[..., 2],
-        "mass_defect": (inflow - outflow - wall) / np.abs(inflow),
+        "mass_defect": mass_defect(inflow, outflow, wall),
         "backflow_fraction": np.mean(axial[..., :-1] <= 0, axis=(1, 2, 3)),
         "axial_dominance_radial": dominance(axial, velocity[..., 1]),
         "axial_dominance_azimuthal": dominance(axial, velocity[..., 2]),
         "axis_velocity_spread": axis_spread(axial[..., 0]),
     }
     return as_dataset(values, rays, times)
+
+
+def mass_defect(inflow: Floats, outflow: Floats, wall: Floats) -> Floats:
+    """(inflow − outflow − dV/dt) over the larger of inflow and outflow, (n_times,); 0 without flow."""
+    size = np.maximum(np.abs(inflow), np.abs(outflow))
+    defect = np.zeros_like(size)
+    np.divide(inflow - outflow - wall, size, out=defect, where=size > 0)
+    return defect
 
 
 def dominance(axial: NDArray[np.floating], across: NDArray[np.floating]) -> Floats:

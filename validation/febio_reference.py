@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from cases.schema import Case, FebioReference
 from febio_io.xplt import Plot, open_plot
+from solver.from_case import inlet_signal
 from validation.alignment import Alignment, align
 from validation.derived import derived_fields
 from validation.errors import UnusableReferenceError
@@ -27,6 +28,7 @@ from validation.plot_file import (
 from validation.rays import Rays
 from validation.reference import Progress, Reference
 
+RADIUS_TOLERANCE = 1e-2  # and the mean radius of its unloaded interface by this share
 LENGTH_TOLERANCE = 1e-3  # the mesh's length may differ from the case's by this share
 
 
@@ -52,28 +54,62 @@ def read_febio(case: Case, rays: Rays, progress: Progress | None = None) -> Refe
     stated = case.reference
     if not isinstance(stated, FebioReference):
         raise UnusableReferenceError("the case states no FEBio reference")
-    with open_plot(stated.plot_file) as plot:
-        require(plot)
-        domains = choose_domains(plot, stated)
-        place = frame(stated.axis, stated.phi_zero, stated.origin)
-        coordinates = place.points(plot.mesh.coordinates)
-        mesh = lumen_mesh(coordinates, blocks(plot, domains.lumen), blocks(plot, domains.wall))
-        _check_length(plot, mesh, case)
-        alignment = align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
-        pressure = pressure_reader(plot, domains.lumen, mesh.lumen, coordinates)
-        mapper, mapped = Mapper(mesh, rays), []
-        for done, state in enumerate(alignment.states, start=1):
-            displacement = nodal_vectors(plot, DISPLACEMENT, int(state), place)
-            velocity = nodal_vectors(plot, VELOCITY, int(state), place)
-            mapped.append(mapper.map_state(displacement, velocity, pressure(int(state))))
-            if progress:
-                progress(done, len(alignment.states))
-        return Reference(
-            fields=derived_fields(mapped, rays, alignment.cycle_times),
-            checks=_checks(plot, place, mesh, mapped, alignment, case, rays),
-            alignment=alignment,
-            description=_description(plot, alignment),
-            notes=(*plot.warnings, *domains.notes),
+    try:
+        with open_plot(stated.plot_file) as plot:
+            return _read(plot, stated, case, rays, progress)
+    except UnusableReferenceError as error:
+        if str(stated.plot_file) in str(error):
+            raise
+        raise UnusableReferenceError(f"{stated.plot_file}: {error}") from error
+
+
+def _read(plot: Plot, stated: FebioReference, case: Case, rays: Rays, progress: Progress | None) -> Reference:
+    require(plot)
+    domains = choose_domains(plot, stated)
+    place = frame(stated.axis, stated.phi_zero, stated.origin)
+    coordinates = place.points(plot.mesh.coordinates)
+    mesh = lumen_mesh(coordinates, blocks(plot, domains.lumen), blocks(plot, domains.wall))
+    _check_length(plot, mesh, case)
+    _check_radius(plot, mesh, case)
+    alignment = align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
+    pressure = pressure_reader(plot, domains.lumen, mesh.lumen, coordinates)
+    mapper, mapped = Mapper(mesh, rays), []
+    for done, state in enumerate(alignment.states, start=1):
+        displacement = nodal_vectors(plot, DISPLACEMENT, int(state), place)
+        velocity = nodal_vectors(plot, VELOCITY, int(state), place)
+        nodal_pressure = pressure(int(state))
+        for name, values in (
+            ("velocity", velocity),
+            ("displacement", displacement),
+            ("pressure", nodal_pressure),
+        ):
+            if not np.all(np.isfinite(values)):
+                raise UnusableReferenceError(
+                    f"{plot.path}: {name} of state {state + 1} is not finite everywhere"
+                )
+        mapped.append(mapper.map_state(displacement, velocity, nodal_pressure))
+        if progress:
+            progress(done, len(alignment.states))
+    _check_direction(plot, mapped, alignment, case)
+    return Reference(
+        fields=derived_fields(mapped, rays, alignment.cycle_times),
+        checks=_checks(plot, place, mesh, mapped, alignment, case, rays),
+        alignment=alignment,
+        description=_description(plot, alignment),
+        notes=(*plot.warnings, *domains.notes),
+    )
+
+
+def _check_direction(plot: Plot, mapped: list[MappedState], alignment: Alignment, case: Case) -> None:
+    """Refuse a reference whose blood flows against the prescribed inflow."""
+    if case.inlet.kind == "pressure":
+        return
+    prescribed = float(np.mean(inlet_signal(case)(alignment.cycle_times)))
+    inflow = float(np.mean(_each(mapped, "inflow")))
+    if prescribed * inflow < 0:
+        raise UnusableReferenceError(
+            f"{plot.path}: blood flows against the inflow of the case ({inflow:.3g} m³/s on average at "
+            "reference.origin): reference.axis and origin must follow the flow"
         )
 
 
@@ -84,6 +120,17 @@ def _check_length(plot: Plot, mesh: LumenMesh, case: Case) -> None:
         raise UnusableReferenceError(
             f"{plot.path}: the lumen runs from x = {first:.6g} m over {mesh.length:.6g} m; the case's artery "
             f"starts at reference.origin and is {case.geometry.length:.6g} m long (geometry.length)"
+        )
+
+
+def _check_radius(plot: Plot, mesh: LumenMesh, case: Case) -> None:
+    """Compare the unloaded interface with the case's unloaded radius."""
+    across = mesh.coordinates[mesh.interface_nodes, 1:]
+    radius = float(np.mean(np.hypot(across[:, 0], across[:, 1])))
+    if abs(radius - case.geometry.radius) > RADIUS_TOLERANCE * case.geometry.radius:
+        raise UnusableReferenceError(
+            f"{plot.path}: the unloaded lumen's radius is {radius:.6g} m on average about reference.origin; "
+            f"the case's is {case.geometry.radius:.6g} m (geometry.radius)"
         )
 
 
@@ -133,6 +180,7 @@ def _description(plot: Plot, alignment: Alignment) -> dict[str, Any]:
         "elements": plot.mesh.n_elements,
         "states": plot.n_states,
         "states_compared": len(alignment.states),
+        "coverage": round(alignment.coverage, 6),
         "first_time_s": float(plot.times[alignment.states[0]]),
         "last_time_s": float(plot.times[alignment.states[-1]]),
     }

@@ -20,14 +20,16 @@ Floats = NDArray[np.float64]
 class MappedState(NamedTuple):
     """Values of one state, SI.
 
-    ``radius``, ``chord`` (n_x, n_phi): wall radius and the ray's end in the mesh; ``velocity``
-    (n_x, n_phi, n_y, 3): along x, r, φ; ``pressure`` (n_x, n_phi): ray mean; ``inflow``,
+    ``radius``, ``chord`` (n_x, n_phi): wall radius and the ray's end in the mesh; ``sector_area``
+    (n_x, n_phi): 2/Δφ times the area of each sector of the mesh's lumen, R² for a circle, m²;
+    ``velocity`` (n_x, n_phi, n_y, 3): along x, r, φ; ``pressure`` (n_x, n_phi): ray mean; ``inflow``,
     ``outflow``, ``wall_flow``: flow rates through the boundary by surface integral, m³/s;
     ``inlet_area``: m².
     """
 
     radius: Floats
     chord: Floats
+    sector_area: Floats
     velocity: Floats
     pressure: Floats
     inflow: float
@@ -45,6 +47,7 @@ class Mapper:
     _located: Located = field(init=False)
     _faces: NDArray[np.int64] = field(init=False)
     _chord_faces: NDArray[np.int64] = field(init=False)
+    _rim_faces: NDArray[np.int64] = field(init=False)
 
     def __post_init__(self) -> None:
         n_x, n_phi, n_y = self.rays.shape
@@ -52,6 +55,7 @@ class Mapper:
         self._located = Located(np.full(count, -1, dtype=np.int64), np.zeros((count, 3)))
         self._faces = np.zeros((n_x, n_phi), dtype=np.int64)
         self._chord_faces = np.zeros((n_x, n_phi), dtype=np.int64)
+        self._rim_faces = np.zeros((n_x, self.rays.rim.size), dtype=np.int64)
 
     def map_state(self, displacement: Floats, velocity: Floats, pressure: Floats) -> MappedState:
         """Bring nodal values onto the rays.
@@ -70,8 +74,9 @@ class Mapper:
         """
         mesh, rays = self.mesh, self.rays
         points = mesh.coordinates + displacement
-        radius = self._radius(points, self._faces, chord=False)
-        chord = self._radius(points, self._chord_faces, chord=True)
+        radius = self._radius(points, rays.phi, self._faces, chord=False)
+        chord = self._radius(points, rays.phi, self._chord_faces, chord=True)
+        rim = self._radius(points, rays.rim, self._rim_faces, chord=True)
         targets = rays.points(chord)
         missing = interpolation.locate(mesh.lumen, points, targets.reshape(-1, 3), self._located)
         if missing >= 0:
@@ -86,6 +91,7 @@ class Mapper:
         return MappedState(
             radius=radius,
             chord=chord,
+            sector_area=(rim**2).reshape(*radius.shape, -1).mean(axis=-1),
             velocity=rays.cylindrical(values[..., :3]),
             pressure=rays.mean(values[..., 3]),
             inflow=flow_along_axis(points, mesh.inlet, velocity),
@@ -94,14 +100,14 @@ class Mapper:
             inlet_area=area_across_axis(points, mesh.inlet),
         )
 
-    def _radius(self, points: Floats, guess: NDArray[np.int64], chord: bool) -> Floats:
+    def _radius(self, points: Floats, phi: Floats, guess: NDArray[np.int64], chord: bool) -> Floats:
         rays = self.rays
-        radius = np.empty(rays.shape[:2])
-        interface_radius(points, self.mesh.interface, rays.x, rays.phi, chord, guess, radius)
+        radius = np.empty(guess.shape)
+        interface_radius(points, self.mesh.interface, rays.x, phi, chord, guess, radius)
         missed = np.argwhere(radius <= 0)
         if len(missed):
             i, j = missed[0]
             raise UnusableReferenceError(
-                f"the ray at x = {rays.x[i]:.6g} m, φ = {rays.phi[j]:.4g} rad meets no lumen–wall interface"
+                f"the ray at x = {rays.x[i]:.6g} m, φ = {phi[j]:.4g} rad meets no lumen–wall interface"
             )
         return radius

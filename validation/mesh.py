@@ -59,7 +59,9 @@ def block_faces(block: Block) -> Integers:
 
 def _keys(faces: Integers) -> NDArray[np.void]:
     """One comparable key per face, whatever its orientation."""
-    ordered = np.ascontiguousarray(np.sort(faces, axis=1))
+    corners = faces.copy()
+    corners[faces[:, 2] == faces[:, 3], 3] = -1  # a triangle, whichever of its nodes stands last
+    ordered = np.sort(corners, axis=1)
     return ordered.view(np.dtype((np.void, ordered.itemsize * 4))).ravel()
 
 

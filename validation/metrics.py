@@ -197,7 +197,7 @@ def plane_rows(models: Models, checks: xr.Dataset) -> Iterator[Row]:
 
 
 def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -> Iterator[Row]:
-    """3D inflow by surface integral (``reference``), and its deviation from the prescribed one (``error``)."""
+    """3D inflow by surface integral (``reference``), and its deviation from the prescribed (``error``)."""
     if prescribed is None:
         return
     inflow = checks["inlet_flow_rate"].to_numpy()
@@ -237,4 +237,6 @@ def _change(row: Row, base: Row) -> Iterator[Row]:
 def to_frame(rows: list[Row]) -> pd.DataFrame:
     """Rows as a table with the columns of the harness, in their order; missing entries are null."""
     table = pd.DataFrame([vars(row) for row in rows], columns=COLUMNS)
+    numbers = ["t_s", "rom", "reference", "error", "band"]
+    table[numbers] = table[numbers].astype(float).replace([np.inf, -np.inf], np.nan)  # γ of plug flow
     return table.astype({"i": "Int64", "j": "Int64"})

@@ -2,6 +2,7 @@
 
 import json
 import math
+import os
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -14,6 +15,7 @@ import pandas as pd
 from validation.errors import ValidationError
 
 MARK = "provenance.json"  # every finished result has one
+RESULT_FILES = {MARK, "comparison.nc", "metrics.csv", "metrics.json", "report.html", "report.pdf"}
 
 
 def check_target(target: Path) -> None:
@@ -22,13 +24,32 @@ def check_target(target: Path) -> None:
     Raises
     ------
     ValidationError
-        If the target exists and is no older result, or its parent is no directory.
+        If the target exists and holds anything but an older result, or cannot be made.
     """
-    if target.exists() and not (target.is_dir() and ((target / MARK).is_file() or not any(target.iterdir()))):
-        raise ValidationError(f"{target}: exists and is no result of a comparison; choose another --output")
-    existing = next(parent for parent in target.absolute().parents if parent.exists())
-    if not existing.is_dir():
-        raise ValidationError(f"{target}: {existing} is no directory")
+    try:
+        place = target.resolve()
+        if place.exists() and not place.is_dir():
+            raise ValidationError(f"{target}: exists and is no directory; choose another --output")
+        if place.is_dir():
+            _check_content(target, {item.name for item in place.iterdir()})
+        existing = next(folder for folder in place.parents if folder.exists())
+    except (OSError, RuntimeError) as error:
+        raise ValidationError(
+            f"{target}: cannot be used: {getattr(error, 'strerror', None) or error}"
+        ) from error
+    if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
+        raise ValidationError(f"{target}: {existing} is no directory that can be written to")
+    if place == Path.cwd():
+        raise ValidationError(f"{target}: is the current directory; choose another --output")
+
+
+def _check_content(target: Path, names: set[str]) -> None:
+    if not names or (MARK in names and names <= RESULT_FILES):
+        return
+    if MARK in names:
+        others = ", ".join(sorted(names - RESULT_FILES))
+        raise ValidationError(f"{target}: holds other files than a result ({others}); move them away")
+    raise ValidationError(f"{target}: exists and is no result of a comparison; choose another --output")
 
 
 @contextmanager
@@ -38,29 +59,42 @@ def result_directory(target: Path) -> Iterator[Path]:
     Raises
     ------
     ValidationError
-        As :func:`check_target`, or if the directory cannot be made.
+        As :func:`check_target`, or if the directory cannot be made or put in place.
     """
     check_target(target)
+    place = target.resolve()
+    made = [folder for folder in place.parents if not folder.exists()]
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        partial = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent))
+        place.parent.mkdir(parents=True, exist_ok=True)
+        partial = Path(tempfile.mkdtemp(prefix=".comparison.", suffix=".part", dir=place.parent))
+        partial.chmod(0o755)
     except OSError as error:
         raise ValidationError(f"{target}: cannot be written: {error.strerror or error}") from error
     try:
-        partial.chmod(0o755)
         yield partial
-        _take_place(partial, target)
+        check_target(target)  # it may have changed meanwhile
+        _take_place(partial, place)
+    except OSError as error:
+        raise ValidationError(f"{target}: cannot be written: {error.strerror or error}") from error
     finally:
         shutil.rmtree(partial, ignore_errors=True)
+        for folder in made:
+            if folder.is_dir() and not any(folder.iterdir()):
+                folder.rmdir()
 
 
-def _take_place(partial: Path, target: Path) -> None:
-    if not target.exists():
-        partial.rename(target)
+def _take_place(partial: Path, place: Path) -> None:
+    """Rename the complete directory into place; an older result goes only then."""
+    if not place.exists():
+        partial.rename(place)
         return
     old = partial.with_suffix(".old")
-    target.rename(old)
-    partial.rename(target)
+    place.rename(old)
+    try:
+        partial.rename(place)
+    except BaseException:
+        old.rename(place)
+        raise
     shutil.rmtree(old)
 
 

@@ -91,7 +91,7 @@ def _maximise(v: Array, w: Array, y: Array, logarithm: Array, low: float, high: 
     for _ in range(60):
         middle = (fa * b - fb * a) / (fa - fb)
         fm = _slope(v, w, y, logarithm, np.exp(middle))
-        if fm == 0.0 or b - a < 1e-13:
+        if fm == 0.0 or abs(b - a) < 1e-13:
             break
         previous = side
         if fm * fb < 0.0:

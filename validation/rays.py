@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.integrate import simpson
 
 POINTS_PER_RAY = 25  # y = 0, 1/24, …, 1; odd, for Simpson's rule
+RIM_RAYS = 192  # rays around a section on which the lumen's edge is taken, at least
 
 Array = NDArray[np.float64]
 
@@ -38,6 +39,13 @@ class Rays:
     def dphi(self) -> float:
         """Angle of a sector Δφ, rad."""
         return 2 * np.pi / self.phi.size
+
+    @property
+    def rim(self) -> Array:
+        """Angles on which the edge of the lumen is taken: equally many in each sector, rad."""
+        each = -(-RIM_RAYS // self.phi.size)
+        inside = (np.arange(each) + 0.5) / each - 0.5
+        return np.asarray((self.phi[:, None] + inside * self.dphi).ravel())
 
     def points(self, radius: Array) -> Array:
         """Points of rays out to ``radius`` (n_x, n_phi), (n_x, n_phi, n_y, 3) in the artery's frame, m."""

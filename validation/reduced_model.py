@@ -76,7 +76,7 @@ def run_reduced_model(
         fields=as_dataset(values, rays, alignment.cycle_times),
         stiffness=dataset["wall_stiffness"],
         cycle_change=change,
-        description=_description(case, dataset),
+        description=_description(case, dataset) | {"cycle_change": change},
     )
 
 

@@ -3,7 +3,7 @@
 import threading
 import time
 from collections.abc import Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.progress import Progress as Display
 
 from cases.schema import Case
+from solver.errors import SolverError
 from solver.from_case import grid_of
 from validation.comparison import VariantRun
 from validation.errors import ValidationError
@@ -74,7 +75,10 @@ def run_variant(name: str, case: Case, watch: Watch) -> VariantRun:
     with watch.step(f"{name}: 3D onto cells") as progress:
         reference = REFERENCES[case.reference.kind](case, points, progress)
     with watch.step(f"{name}: reduced model") as progress:
-        rom = run_reduced_model(case, reference.alignment, points, progress)
+        try:
+            rom = run_reduced_model(case, reference.alignment, points, progress)
+        except SolverError as error:
+            raise ValidationError(f"variant {name!r}: {error}") from error
     return VariantRun(case, rom, reference)
 
 
@@ -83,8 +87,11 @@ def run_variants(cases: Mapping[str, Case], watch: Watch) -> dict[str, VariantRu
     with ThreadPoolExecutor(max_workers=WORKERS) as pool:
         futures = {name: pool.submit(run_variant, name, case, watch) for name, case in cases.items()}
         try:
+            wait(futures.values(), return_when=FIRST_EXCEPTION)
+            failed = [future for future in futures.values() if future.done() and future.exception()]
+            for future in failed:
+                future.result()
             return {name: future.result() for name, future in futures.items()}
-        except BaseException:
+        finally:
             watch.stop.set()
             pool.shutdown(wait=False, cancel_futures=True)
-            raise

@@ -49,10 +49,7 @@ POOLED: dict[str, Callable[[Floats], float]] = {
     "scatter": scatter,
 }
 DIFFERENCES: dict[str, Callable[[Floats], float]] = {"rms_difference": rms, "max_difference": largest}
-EXTREMES: dict[str, Callable[[Floats], int]] = {
-    "systolic_error": lambda series: int(np.argmax(series)),
-    "diastolic_error": lambda series: int(np.argmin(series)),
-}
+EXTREMES = ("systolic_error", "diastolic_error")
 
 
 def extreme_error(statistic: str, rom: Floats, reference: Floats) -> float | None:

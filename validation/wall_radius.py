@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
+ROUND_OFF = 1e-12
 INSIDE = 1e-7  # natural coordinates may exceed a face by this
 
 
@@ -36,8 +37,8 @@ def _invert_face(a: Array, b: Array, n: Array) -> bool:
         as_ = low * (a[3] - a[0]) + high * (a[2] - a[1])
         bs = low * (b[3] - b[0]) + high * (b[2] - b[1])
         determinant = ar * bs - as_ * br
-        if not abs(determinant) > 0.0:
-            return False
+        if not abs(determinant) > 0.0:  # the node that a triangle repeats
+            return bool(abs(fa) <= ROUND_OFF * np.max(np.abs(a)) and abs(fb) <= ROUND_OFF * np.max(np.abs(b)))
         dr = (as_ * fb - bs * fa) / determinant
         ds = (br * fa - ar * fb) / determinant
         r, s = r + dr, s + ds

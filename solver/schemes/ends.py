@@ -31,7 +31,7 @@ def section_flow(p: Parameters, flow: Array) -> float:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def old_end_areas(p: Parameters, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
-    """A of the old end pressures; status, i, j."""
+    """Apply the wall law to the old end pressures; status, i, j."""
     last = fields.area.shape[0] - 1
     status, j = wall_row(p, last, fields.outlet_pressure, ws.old_end_area[OUTLET], ws.end_slope[OUTLET])
     if status != OK or p.inlet_kind != PRESSURE_INLET:
@@ -202,7 +202,7 @@ def _close_last_cell(ws: Workspace, j: int, c: float, change: float) -> None:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def update_reservoir(p: Parameters, s: Stepping, fields: Fields, new_flow: Array) -> None:
+def update_reservoir(p: Parameters, fields: Fields, new_flow: Array) -> None:
     """Pressure of the Windkessel's capacitor after the step: P_c' = P' − R₁ q'."""
     if p.outlet_kind == WINDKESSEL:
         fields.reservoir[0] = fields.outlet_pressure[0] - p.resistance * section_flow(p, new_flow)

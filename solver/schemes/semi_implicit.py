@@ -359,7 +359,7 @@ def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
             row[j] -= ratio * ((1.0 - s.theta) * old + s.theta * new)
     fields.outlet_pressure[:] = ws.end_pressure[OUTLET]
     fields.inlet_pressure[:] = ws.end_pressure[INLET]
-    update_reservoir(p, s, fields, new_flow[n_x])
+    update_reservoir(p, fields, new_flow[n_x])
     flow[:, :] = new_flow
     fields.pressure[:, :] = ws.iterate_pressure
 

@@ -83,7 +83,7 @@ def wall_area(p: Parameters, pressure: Array, area: Array, slope: Array) -> tupl
 def tabulated_area(
     pressure: Array, table: Array, start: float, step: float, area: Array, slope: Array
 ) -> tuple[int, int, int]:
-    """A and dA/dP of a tabulated wall at pressures (n_x, n_phi); OK or BEYOND_WALL_TABLE, i, j."""
+    """Find A and dA/dP of a tabulated wall at pressures (n_x, n_phi); OK or BEYOND_WALL_TABLE, i, j."""
     for i in range(pressure.shape[0]):
         j = _tabulated(pressure[i], table[i], start, step, area[i], slope[i])
         if j >= 0:

@@ -60,10 +60,6 @@ def test_a_tube_anywhere(read, axis, phi_zero, origin, nodal_pressure):
     assert found.description["states_compared"] == len(TIMES)
 
 
-@pytest.mark.xfail(
-    raises=UnusableReferenceError,
-    reason="faces of triangles are not recognised as shared where their last nodes differ",
-)
 def test_a_tube_of_tetrahedra(read):
     check(read(Tube(sectors=12, rings=4, stacks=10, layers=2, tetrahedra=True)))
 
@@ -96,7 +92,7 @@ def test_domains_may_be_named(read):
         ({"wall": ["Blood"]}, r"named both lumen and wall: Blood"),
         ({"axis": "x"}, r"the lumen (has no plane inlet|runs from)"),
         ({"origin": ["0 m", "0 m", "5 mm"]}, r"starts at reference\.origin and is 0\.015 m long"),
-        ({"origin": ["5 mm", "0 m", "0 m"]}, r"the ray at .* meets no lumen–wall interface"),
+        ({"origin": ["5 mm", "0 m", "0 m"]}, r"the unloaded lumen.s radius is 0\.00531\d+ m on average about reference\.origin"),
     ],
 )
 def test_a_reference_that_does_not_fit(read, reference, said):
@@ -119,7 +115,7 @@ def test_a_missing_plot_variable_is_named(read, missing):
 
 
 def test_too_few_states(read):
-    with pytest.raises(UnusableReferenceError, match="2 states in the last cycle"):
+    with pytest.raises(UnusableReferenceError, match="states in the last cycle: 2"):
         read(times=[0.1, 0.2])
 
 
