@@ -105,9 +105,6 @@ class LocalCalcification(Section):
     @field_validator("phi")
     @classmethod
     def _phi(cls, phi: tuple[float, float]) -> tuple[float, float]:
-        for item, angle in enumerate(phi):
-            if not 0.0 <= angle <= FULL_TURN:
-                raise refused(f"{math.degrees(angle):g} deg", "an angle from 0 to 360 deg", key=(item,))
         if phi[0] == phi[1] or phi == (FULL_TURN, 0.0):
             found = " to ".join(f"{math.degrees(angle):g} deg" for angle in phi)
             raise refused(found, "a first and a last angle with a patch between them")

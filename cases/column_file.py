@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cases.errors import ColumnFileError, QuantityError
+from cases.ranges import CYCLE_TIMES, FLOW_RATES, PRESSURES, SIZES, VELOCITIES, Range
 from cases.units import parse_number
 from cases.wording import but_allowed, choices, nearest, shown
 
@@ -24,25 +25,30 @@ class Column:
         Words for messages.
     unit : str
         SI unit for messages.
+    within : Range
+        Between what limits its values lie.
     factors : dict of str to Decimal
         Header name → factor to SI; decimal, so that 8.41199 cm/s is the float closest to 0.0841199.
     """
 
     quantity: str
     unit: str
+    within: Range
     factors: dict[str, Decimal]
 
 
-TIME = Column("a time", "s", {"t_s": Decimal(1), "t_ms": Decimal("1e-3")})
-RADIUS = Column("a radius", "m", {"radius_mm": Decimal("1e-3"), "radius_m": Decimal(1)})
+TIME = Column("a time", "s", CYCLE_TIMES, {"t_s": Decimal(1), "t_ms": Decimal("1e-3")})
+RADIUS = Column("a radius", "m", SIZES, {"radius_mm": Decimal("1e-3"), "radius_m": Decimal(1)})
 VELOCITY = Column(
     "a mean velocity",
     "m/s",
+    VELOCITIES,
     {"mean_velocity_m_s": Decimal(1), "mean_velocity_cm_s": Decimal("0.01")},
 )
 FLOW_RATE = Column(
     "a flow rate",
     "m^3/s",
+    FLOW_RATES,
     {
         "flow_rate_m3_s": Decimal(1),
         "flow_rate_cm3_s": Decimal("1e-6"),
@@ -53,6 +59,7 @@ FLOW_RATE = Column(
 PRESSURE = Column(
     "a pressure",
     "Pa",
+    PRESSURES,
     {"pressure_Pa": Decimal(1), "pressure_kPa": Decimal(1000), "pressure_mmHg": MMHG},
 )
 COLUMNS = (TIME, RADIUS, VELOCITY, FLOW_RATE, PRESSURE)
@@ -126,17 +133,17 @@ def read_samples(path: Path, first: Column, second: Column, fewest_rows: int) ->
     if not numbered:
         raise ColumnFileError(": empty; allowed: a header and rows of numbers")
     (header_line, header), *rows = numbered
-    factors = _factors(header_line, header, first, second)
+    _check_header(header_line, header, first, second)
     if len(rows) < fewest_rows:
         raise ColumnFileError(f": {len(rows)} rows; allowed: {fewest_rows} or more")
-    values = np.array([_row(line, cells, header, factors) for line, cells in rows])
+    values = np.array([_row(line, cells, header, (first, second)) for line, cells in rows])
     columns = values.T.copy()
     columns.setflags(write=False)
     return Samples(columns[0], columns[1], tuple(line for line, _ in rows))
 
 
-def _factors(line: int, names: list[str], first: Column, second: Column) -> tuple[Decimal, Decimal]:
-    """Return the SI factors of the two columns."""
+def _check_header(line: int, names: list[str], first: Column, second: Column) -> None:
+    """Refuse a header that does not name the two columns."""
     known = [*first.factors, *second.factors]
     for name in names:
         if name not in known:
@@ -144,7 +151,6 @@ def _factors(line: int, names: list[str], first: Column, second: Column) -> tupl
     if len(names) != 2 or names[0] not in first.factors or names[1] not in second.factors:
         allowed = f"{choices(first.factors)}, then {choices(second.factors)}"
         raise ColumnFileError(f", line {line}: columns {', '.join(names)}; allowed: {allowed}")
-    return first.factors[names[0]], second.factors[names[1]]
 
 
 def _unknown(name: str, known: list[str]) -> str:
@@ -156,16 +162,19 @@ def _unknown(name: str, known: list[str]) -> str:
 
 
 def _row(
-    line: int, cells: list[str], names: list[str], factors: tuple[Decimal, Decimal]
+    line: int, cells: list[str], names: list[str], columns: tuple[Column, Column]
 ) -> tuple[float, float]:
     """Return the two values of one row, in SI units."""
     if len(cells) != len(names):
         raise ColumnFileError(f", line {line}: {len(cells)} columns; allowed: {len(names)}")
     values = []
-    for name, cell, factor in zip(names, cells, factors, strict=True):
+    for name, cell, column in zip(names, cells, columns, strict=True):
+        found = f", line {line}: {name}: {shown(cell)}"
         try:
-            values.append(parse_number(cell, factor))
+            value = parse_number(cell, column.factors[name])
         except QuantityError as error:
-            found = f"{name}: {shown(cell)}"
-            raise ColumnFileError(f", line {line}: {found}; allowed: a finite number") from error
+            raise ColumnFileError(f"{found}; allowed: a finite number") from error
+        if value not in column.within:
+            raise ColumnFileError(f"{found}; allowed: {column.within}")
+        values.append(value)
     return values[0], values[1]

@@ -18,7 +18,15 @@ from cases.inlet import FlowInlet, Inlet, PressureInlet, VelocityInlet
 from cases.outlet import NonReflectingOutlet, Outlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
 from cases.reference import FebioReference
 from cases.section import Section, told_apart_by
-from cases.solver_settings import FEWEST_ROWS, GodunovSolver, SemiImplicitSolver, Solver, Start
+from cases.solver_settings import (
+    FEWEST_ROWS,
+    MOST_STATES,
+    MOST_STEPS,
+    GodunovSolver,
+    SemiImplicitSolver,
+    Solver,
+    Start,
+)
 from cases.sources import FourierSeries
 from cases.values import ArteryLength, Density, Radius, Thickness, Viscosity, Words, refused
 from cases.wall import LINEAR_LAWS, HomogeneousWall, Layer, LayeredWall, TableWall, Wall
@@ -170,6 +178,8 @@ class Case(Section):
         if isinstance(calcification, LocalCalcification) and solver.n_phi < FEWEST_ROWS:
             allowed = f"{FEWEST_ROWS} or more with a local calcification"
             raise refused(solver.n_phi, allowed, key=("n_phi",))
+        if inlet is not None:
+            _refuse_endless_runs(solver, inlet)
         if "start" not in solver.model_fields_set and inlet is not None and outlet is not None:
             return solver.model_copy(update={"start": _default_start(inlet, outlet)})
         return solver
@@ -197,6 +207,19 @@ class Case(Section):
             outlet.waveform.path if isinstance(outlet, PressureOutlet) and outlet.waveform else None,
         )
         return tuple(path for path in paths if path is not None)
+
+
+def _refuse_endless_runs(solver: Solver, inlet: Inlet) -> None:
+    """Refuse more steps or saved states than a run can take."""
+    asked = (
+        ("time_step", solver.time_step, MOST_STEPS[solver.scheme], "steps"),
+        ("output_interval", solver.output_interval, MOST_STATES, "states"),
+    )
+    for key, interval, most, words in asked:
+        count = 0.0 if interval is None else solver.cycles * inlet.period / interval
+        if count > most * (1.0 + SAME):
+            reason = f"{count:.4g} {words} in {solver.cycles} cycles of {inlet.period:g} s"
+            raise refused(f"{interval:g} s", f"at most {most} {words}", reason, key=(key,))
 
 
 def _default_start(inlet: Inlet, outlet: Outlet) -> Start:

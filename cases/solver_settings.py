@@ -1,22 +1,30 @@
 """The numerical solution: scheme, grid, time step."""
 
+from types import MappingProxyType
 from typing import Annotated, Literal
 
 from pydantic import Tag, ValidationInfo, field_validator
 
 from cases.section import Section
-from cases.values import PositiveNumber, TimeStep, Tolerance, one_of, refused, whole_number
+from cases.values import Exponent, TimeStep, Tolerance, one_of, refused, whole_number
 
 FEWEST_ROWS = 4
+MOST_SECTIONS, MOST_ROWS, MOST_CELLS = 10_000, 2_000, 2_000_000
+MOST_CYCLES = 1_000
+MOST_STEPS = MappingProxyType({"semi_implicit": 10_000_000, "godunov": 100_000_000})
+MOST_STATES = 100_000
 
 Closure = Literal["average", "maximum", "least_squares"]
 Start = Literal["steady", "rest"]
 Limiter = Literal["van_leer", "superbee", "minmod", "upwind", "lax_wendroff"]
 Coefficients = Literal["corrected", "printed"]
 
-Sections = whole_number("a whole number from 3 on", lambda value: value >= 3)
-Rows = whole_number("1, or a whole number from 4 on", lambda value: value == 1 or value >= FEWEST_ROWS)
-Cycles = whole_number("a whole number from 1 on", lambda value: value >= 1)
+Sections = whole_number(f"a whole number from 3 to {MOST_SECTIONS}", lambda n: 3 <= n <= MOST_SECTIONS)
+Rows = whole_number(
+    f"1, or a whole number from {FEWEST_ROWS} to {MOST_ROWS}",
+    lambda n: n == 1 or FEWEST_ROWS <= n <= MOST_ROWS,
+)
+Cycles = whole_number(f"a whole number from 1 to {MOST_CYCLES}", lambda n: 1 <= n <= MOST_CYCLES)
 
 
 class SolverSettings(Section):
@@ -27,7 +35,7 @@ class SolverSettings(Section):
     scheme : str
         The numerical scheme.
     n_x, n_phi : int
-        Number of sections along x and of rows along φ.
+        Number of sections along x and of rows along φ; at most `MOST_CELLS` cells in all.
     time_step : float
         Δt in s, at most the inlet's period.
     cycles : int
@@ -51,6 +59,14 @@ class SolverSettings(Section):
     start: Annotated[Start, one_of(Start)] = "steady"
     output_interval: TimeStep | None = None
 
+    @field_validator("n_phi")
+    @classmethod
+    def _n_phi(cls, n_phi: int, info: ValidationInfo) -> int:
+        n_x = info.data.get("n_x")
+        if n_x is not None and n_x * n_phi > MOST_CELLS:
+            raise refused(n_phi, f"at most {MOST_CELLS // n_x} with n_x {n_x} ({MOST_CELLS} cells)")
+        return n_phi
+
     @field_validator("output_interval")
     @classmethod
     def _output_interval(cls, interval: float | None, info: ValidationInfo) -> float | None:
@@ -66,14 +82,15 @@ class SemiImplicitSolver(SolverSettings):
     Attributes
     ----------
     error_tolerance : float or None
-        Relative error of a step that an adaptive time step keeps, in (0, 0.1]; None: a fixed time step.
+        Relative error of a step that an adaptive time step keeps, in [1e-9, 0.1]; None: a fixed time step.
     profile_exponent : float or None
-        Fixed exponent γ of the velocity profile, for one row only; None: γ follows from the closure.
+        Fixed exponent γ of the velocity profile, for one row only, in [0.01, 1000]; None: γ follows from the
+        closure.
     """
 
     scheme: Annotated[Literal["semi_implicit"], one_of(Literal["semi_implicit"])]
     error_tolerance: Tolerance | None = None
-    profile_exponent: PositiveNumber | None = None
+    profile_exponent: Exponent | None = None
 
     @field_validator("closure")
     @classmethod

@@ -1,11 +1,10 @@
 """The kinds of value that a case file holds, each with the words that say what is allowed."""
 
-import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar, get_args
+from typing import Annotated, Any, TypeVar, get_args
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, PlainSerializer
 from pydantic_core import CoreSchema, core_schema
@@ -13,13 +12,32 @@ from pydantic_core import CoreSchema, core_schema
 from cases.column_file import FLOW_RATE, PRESSURE, VELOCITY, Column
 from cases.errors import ColumnFileError, QuantityError, RefusedValueError
 from cases.input_files import find_file
+from cases.ranges import (
+    ANGLES,
+    COMPLIANCES,
+    COORDINATES,
+    DENSITIES,
+    FLOW_RATES,
+    MODULI,
+    OFFSETS,
+    PERIODS,
+    POSITIONS,
+    PRESSURES,
+    RESISTANCES,
+    SERIES_RESISTANCES,
+    SIZES,
+    TIME_STEPS,
+    TRANSITION_ANGLES,
+    VELOCITIES,
+    VISCOSITIES,
+    Range,
+)
 from cases.units import DIMENSIONS, parse_quantity, parse_ratio
 from cases.wall_curve_file import WallCurve, read_wall_curve
 from cases.waveform_file import Waveform, read_waveform
 from cases.wording import but_allowed, choices, not_one_of, shown
 
 T = TypeVar("T")
-Sign = Literal["any", "not negative", "positive"]
 
 
 @dataclass(frozen=True)
@@ -71,18 +89,16 @@ def refused(
     return RefusedValueError(but_allowed(found, allowed), key)
 
 
-def quantity(dimension_name: str, sign: Sign, example: str) -> ValueKind:
-    """Return the kind of quantities with a unit; values become floats in SI units."""
-    dimension = DIMENSIONS[dimension_name]
-    words = {"any": "any {}", "not negative": "a {} of zero or more", "positive": "a positive {}"}[sign]
-    allowed = f'{words.format(dimension_name)}, e.g. "{example}"'
+def quantity(within: Range, example: str) -> ValueKind:
+    """Return the kind of quantities with a unit in a range; values become floats in SI units."""
+    allowed = f'{within}, e.g. "{example}"'
 
     def parse(value: object, _context: Context | None) -> float:
         try:
-            number = parse_quantity(value, dimension)
+            number = parse_quantity(value, DIMENSIONS[within.dimension])
         except QuantityError as error:
             raise refused(value, allowed, str(error)) from error
-        if (sign == "positive" and number <= 0) or (sign == "not negative" and number < 0):
+        if number not in within:
             raise refused(value, allowed)
         return number
 
@@ -203,37 +219,37 @@ def _tolerance(value: object, _context: Context | None) -> float:
         tolerance = parse_ratio(value)
     except QuantityError as error:
         raise refused(value, TOLERANCE, str(error)) from error
-    if not 0 < tolerance <= 0.1:
+    if not 1e-9 <= tolerance <= 0.1:
         raise refused(value, TOLERANCE)
     return tolerance
 
 
 SWITCH = "true, false"
-TOLERANCE = 'a ratio above 0, at most 0.1, e.g. "0.1 %"'
+TOLERANCE = 'a ratio from 1e-9 to 0.1, e.g. "0.1 %"'
 PATH_SCHEMA = {"type": "string", "minLength": 1}
 
-Length = Annotated[float, quantity("length", "any", "0 mm")]
-ArteryLength = Annotated[float, quantity("length", "positive", "15 mm")]
-Radius = Annotated[float, quantity("length", "positive", "2.5 mm")]
-Thickness = Annotated[float, quantity("length", "positive", "0.5 mm")]
-Position = Annotated[float, quantity("length", "not negative", "5 mm")]
-TransitionLength = Annotated[float, quantity("length", "positive", "2.5 mm")]
-Angle = Annotated[float, quantity("angle", "any", "135 deg")]
-TransitionAngle = Annotated[float, quantity("angle", "positive", "67.5 deg")]
-Time = Annotated[float, quantity("time", "any", "0.2 s")]
-TimeStep = Annotated[float, quantity("time", "positive", "1 ms")]
-Period = Annotated[float, quantity("time", "positive", "0.8 s")]
-Ramp = Annotated[float, quantity("time", "positive", "8 ms")]
-Velocity = Annotated[float, quantity("velocity", "any", "8.4 cm/s")]
-FlowRate = Annotated[float, quantity("flow rate", "any", "5 ml/s")]
-Pressure = Annotated[float, quantity("pressure", "any", "9330 Pa")]
-Modulus = Annotated[float, quantity("pressure", "positive", "0.6 MPa")]
-Density = Annotated[float, quantity("density", "positive", "1060 kg/m^3")]
-Viscosity = Annotated[float, quantity("viscosity", "positive", "0.0035 Pa s")]
-Resistance = Annotated[float, quantity("resistance", "positive", "1.358e9 Pa s/m^3")]
-SeriesResistance = Annotated[float, quantity("resistance", "not negative", "1.358e9 Pa s/m^3")]
-Compliance = Annotated[float, quantity("compliance", "positive", "1e-10 m^3/Pa")]
-PositiveNumber = Annotated[float, number("a positive number", lambda value: 0 < value < math.inf)]
+Length = Annotated[float, quantity(COORDINATES, "0 mm")]
+ArteryLength = Annotated[float, quantity(SIZES, "15 mm")]
+Radius = Annotated[float, quantity(SIZES, "2.5 mm")]
+Thickness = Annotated[float, quantity(SIZES, "0.5 mm")]
+Position = Annotated[float, quantity(POSITIONS, "5 mm")]
+TransitionLength = Annotated[float, quantity(SIZES, "2.5 mm")]
+Angle = Annotated[float, quantity(ANGLES, "135 deg")]
+TransitionAngle = Annotated[float, quantity(TRANSITION_ANGLES, "67.5 deg")]
+Time = Annotated[float, quantity(OFFSETS, "0.2 s")]
+TimeStep = Annotated[float, quantity(TIME_STEPS, "1 ms")]
+Period = Annotated[float, quantity(PERIODS, "0.8 s")]
+Ramp = Annotated[float, quantity(PERIODS, "8 ms")]
+Velocity = Annotated[float, quantity(VELOCITIES, "8.4 cm/s")]
+FlowRate = Annotated[float, quantity(FLOW_RATES, "5 ml/s")]
+Pressure = Annotated[float, quantity(PRESSURES, "9330 Pa")]
+Modulus = Annotated[float, quantity(MODULI, "0.6 MPa")]
+Density = Annotated[float, quantity(DENSITIES, "1060 kg/m^3")]
+Viscosity = Annotated[float, quantity(VISCOSITIES, "0.0035 Pa s")]
+Resistance = Annotated[float, quantity(RESISTANCES, "1.358e9 Pa s/m^3")]
+SeriesResistance = Annotated[float, quantity(SERIES_RESISTANCES, "1.358e9 Pa s/m^3")]
+Compliance = Annotated[float, quantity(COMPLIANCES, "1e-10 m^3/Pa")]
+Exponent = Annotated[float, number("a number from 0.01 to 1000", lambda value: 0.01 <= value <= 1000)]
 Tolerance = Annotated[float, ValueKind(_tolerance, TOLERANCE, {"type": ["string", "number"]})]
 Switch = Annotated[bool, ValueKind(_switch, SWITCH, {"type": "boolean"})]
 Words = Annotated[str, text("a text", r"(?s).*\S.*")]

@@ -73,9 +73,6 @@ def read_wall_curve(path: Path, name: str | None = None) -> WallCurve:
 
 
 def _check_curve(samples: Samples) -> None:
-    """Refuse radii that are not positive, and radii or pressures that do not increase."""
-    if samples.first[0] <= 0.0:
-        found = f"starts at {samples.first[0]:g} m"
-        raise ColumnFileError(f", line {samples.lines[0]}: {found}; allowed: positive radii")
+    """Refuse radii or pressures that do not increase."""
     samples.require_increasing(samples.first, "radius", "radii")
     samples.require_increasing(samples.second, "pressure", "pressures")

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from cases.column_file import TIME, VELOCITY, Column, Samples, read_samples
 from cases.errors import ColumnFileError
+from cases.ranges import PERIODS
 
 FEWEST_ROWS = 3
 CLOSURE = 1e-9
@@ -84,6 +85,8 @@ def _check_cycle(samples: Samples, unit: str) -> None:
     if times[0] != 0.0:
         raise ColumnFileError(f", line {lines[0]}: starts at {times[0]:g} s; allowed: a first time of 0")
     samples.require_increasing(times, "time", "times")
+    if times[-1] not in PERIODS:
+        raise ColumnFileError(f", line {lines[-1]}: a period of {times[-1]:g} s; allowed: {PERIODS}")
     if abs(values[-1] - values[0]) > CLOSURE * np.abs(values).max():
         found = f"ends at {values[-1]:.9g} {unit} but starts at {values[0]:.9g} {unit}"
         raise ColumnFileError(f", line {lines[-1]}: {found}; allowed: a last value equal to the first")

@@ -23,7 +23,10 @@ def test_the_message_says_where_what_and_what_is_allowed(folder, old, new, probl
 
 def test_a_misspelt_key_is_unknown_and_the_right_one_missing(folder):
     assert folder.problems(("wall_thickness", "wall_thicknes")) == [
-        'x.yaml, line 3: geometry.wall_thickness: missing; allowed: a positive length, e.g. "0.5 mm"',
+        (
+            "x.yaml, line 3: geometry.wall_thickness: missing; "
+            'allowed: a length from 1 µm to 10 m, e.g. "0.5 mm"'
+        ),
         (
             "x.yaml, line 6: geometry.wall_thicknes: unknown key wall_thicknes; did you mean wall_thickness? "
             "allowed: length, radius, wall_thickness"

@@ -85,7 +85,7 @@ def test_written_curves_are_read_back(tmp_path_factory, steps):
         (f"{HEADER}\n1,1\n2,x\n3,3\n4,4\n", "wall.csv, line 3: pressure_Pa: x; allowed: a finite number"),
         (
             f"{HEADER}\n0,1\n2,2\n3,3\n4,4\n",
-            "wall.csv, line 2: starts at 0 m; allowed: positive radii",
+            "wall.csv, line 2: radius_m: 0; allowed: a length from 1 µm to 10 m",
         ),
         (
             f"{HEADER}\n1,1\n2,2\n#\n2,3\n4,4\n",
