@@ -7,11 +7,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.errors import ColumnFileError, QuantityError
+from cases.errors import ColumnFileError, QuantityError, UnreadableFileError
+from cases.input_files import read_file
 from cases.ranges import CYCLE_TIMES, FLOW_RATES, PRESSURES, SIZES, VELOCITIES, Range
 from cases.units import parse_number
 from cases.wording import but_allowed, choices, nearest, shown
 
+LARGEST_FILE = 10_000_000
 MMHG = Decimal("133.322387415")
 
 
@@ -120,9 +122,9 @@ def read_samples(path: Path, first: Column, second: Column, fewest_rows: int) ->
         ", line …: " or ": ".
     """
     try:
-        lines = path.read_bytes().decode("utf-8-sig").splitlines()
-    except OSError as error:
-        raise ColumnFileError(f": {error.strerror or error}") from error
+        lines = read_file(path, LARGEST_FILE).decode("utf-8-sig").splitlines()
+    except UnreadableFileError as error:
+        raise ColumnFileError(f": {error}") from error
     except UnicodeDecodeError as error:
         raise ColumnFileError(": not UTF-8 text") from error
     numbered = [

@@ -12,6 +12,10 @@ class QuantityError(CaseError):
     """A text is not a quantity of the expected dimension; the message is the reason alone."""
 
 
+class UnreadableFileError(CaseError):
+    """A file cannot be read; the message is the reason alone."""
+
+
 class ColumnFileError(CaseError):
     """A waveform or a wall curve cannot be read from its file."""
 

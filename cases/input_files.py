@@ -1,6 +1,9 @@
-"""Where the files that a case names are found."""
+"""Where the files that a case names are found, and how they are read."""
 
+import stat
 from pathlib import Path
+
+from cases.errors import UnreadableFileError
 
 
 def find_file(name: str, folder: Path) -> Path | None:
@@ -26,3 +29,38 @@ def find_file(name: str, folder: Path) -> Path | None:
         except OSError:  # a name too long, a folder that may not be read: not found there
             continue
     return None
+
+
+def read_file(path: Path, largest: int) -> bytes:
+    """Read a regular file: no folder, device or pipe, which may never end.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The file.
+    largest : int
+        How many bytes it may have.
+
+    Returns
+    -------
+    bytes
+        All that it holds.
+
+    Raises
+    ------
+    UnreadableFileError
+        It is missing, no regular file, not readable or too large; the message is the reason alone.
+    """
+    try:
+        mode = path.stat().st_mode
+        if stat.S_ISDIR(mode):
+            raise UnreadableFileError("a folder")
+        if not stat.S_ISREG(mode):
+            raise UnreadableFileError("a device or a pipe")
+        with path.open("rb") as stream:
+            content = stream.read(largest + 1)
+    except OSError as error:
+        raise UnreadableFileError(str(error.strerror or error)) from error
+    if len(content) > largest:
+        raise UnreadableFileError(f"larger than {largest} bytes")
+    return content

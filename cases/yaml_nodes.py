@@ -10,7 +10,8 @@ from ruamel.yaml.nodes import MappingNode, ScalarNode, SequenceNode
 from ruamel.yaml.nodes import Node as YamlNode
 from ruamel.yaml.reader import ReaderError
 
-from cases.errors import CaseFileError, Problem
+from cases.errors import CaseFileError, Problem, UnreadableFileError
+from cases.input_files import read_file
 
 Scalar = str | int | float | bool | None
 LARGEST_FILE = 1_000_000
@@ -84,18 +85,12 @@ def read_text(path: Path) -> str:
     Raises
     ------
     CaseFileError
-        The file is missing, a folder, not readable, far too large or not UTF-8.
+        The file is missing, no regular file, not readable, far too large or not UTF-8.
     """
     try:
-        if path.is_dir():
-            raise CaseFileError(path, f"{path}: a folder; allowed: a case file (.yaml)")
-        if path.stat().st_size > LARGEST_FILE:
-            raise CaseFileError(path, f"{path}: larger than {LARGEST_FILE} bytes; not a case file")
-        return path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise CaseFileError(
-            path, f"{path}: {error.strerror or error}; allowed: a case file (.yaml)"
-        ) from error
+        return read_file(path, LARGEST_FILE).decode("utf-8-sig")
+    except UnreadableFileError as error:
+        raise CaseFileError(path, f"{path}: {error}; allowed: a case file (.yaml)") from error
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
         message = f"{path}, line {line}: not UTF-8 text (byte 0x{error.object[error.start]:02x})"

@@ -1,4 +1,5 @@
 import math
+import os
 from pathlib import Path
 
 import pytest
@@ -201,5 +202,20 @@ def test_a_missing_file_and_a_folder_are_refused(tmp_path):
 def test_a_file_far_too_large_is_not_read(tmp_path):
     file = Path(tmp_path / "x.yaml")
     file.write_bytes(b"#" * 1_000_001)
-    with pytest.raises(CaseFileError, match="larger than 1000000 bytes"):
+    with pytest.raises(CaseFileError, match="larger than 1000000 bytes; allowed: a case file"):
         load_case_file(file)
+
+
+def test_a_device_and_a_pipe_are_refused_unread(tmp_path):
+    os.mkfifo(tmp_path / "pipe.yaml")  # to open it would wait for a writer
+    for path in (Path("/dev/zero"), tmp_path / "pipe.yaml"):
+        with pytest.raises(CaseFileError) as caught:
+            load_case_file(path)
+        assert str(caught.value) == f"{path}: a device or a pipe; allowed: a case file (.yaml)"
+
+
+def test_a_waveform_far_too_large_is_refused(folder):
+    (folder.path / "data/inlet.csv").write_bytes(b"#" * 10_000_001)
+    assert folder.problems() == [
+        "x.yaml, line 10: inlet.waveform: data/inlet.csv: larger than 10000000 bytes"
+    ]
