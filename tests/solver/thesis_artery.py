@@ -46,7 +46,10 @@ def patched(grid, patch, calcified=CALCIFIED):
 
 
 def artery(n_x, n_phi, *, outlet=SECTION_OUTLET, inlet=None, patch=None, stiffness=None, **changes):
-    """Model of the thesis's artery; ``changes`` are fields of Model, or ``length``."""
+    """Model of the thesis's artery; ``inlet`` is an Inlet or the signal of a velocity inlet.
+
+    ``changes`` are fields of Model, or ``length``.
+    """
     grid = Grid(changes.pop("length", LENGTH), n_x, n_phi)
     values = {
         "grid": grid,
@@ -55,7 +58,7 @@ def artery(n_x, n_phi, *, outlet=SECTION_OUTLET, inlet=None, patch=None, stiffne
         "viscosity": VISCOSITY,
         "reference_pressure": 0.0,
         "stiffness": patched(grid, patch) if stiffness is None else stiffness,
-        "inlet": Inlet("velocity", constant(DIASTOLE, 1.0) if inlet is None else inlet),
+        "inlet": inlet if isinstance(inlet, Inlet) else Inlet("velocity", inlet or constant(DIASTOLE, 1.0)),
         "outlet": outlet,
     }
     return Model(**(values | changes))
