@@ -1,5 +1,6 @@
 """A YAML file as a tree whose every value knows its line and its key."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +17,10 @@ from cases.input_files import read_file
 Scalar = str | int | float | bool | None
 LARGEST_FILE = 1_000_000
 TAG = "tag:yaml.org,2002:"
+# what escapes such as "\0" and "\uD800" put into texts: control characters, and those that are none
+NO_TEXT = re.compile(r"[^\t\n\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+NO_KEY = re.compile(rf"{NO_TEXT.pattern}|[\t\n]")
+BEYOND_UNICODE = re.compile(r"\\U(?!0010|000)[0-9A-Fa-f]{8}")
 
 
 @dataclass(frozen=True)
@@ -106,8 +111,21 @@ def parse_yaml(text: str, path: Path) -> Node:
         Broken YAML, a key stated twice, an anchored section used twice, a tag, or no keys at all.
     """
     try:
-        root = YAML(pure=True).compose(text)
+        root = _compose(text, path)
         nodes = None if root is None else _Tree(path).node(root, root.start_mark.line + 1, "")
+    except RecursionError as error:
+        raise CaseFileError(path, f"{path}: sections or lists nested too deeply") from error
+    if nodes is None:
+        raise CaseFileError(path, f"{path}: empty; allowed: a case file (.yaml)")
+    if not isinstance(nodes.value, dict):
+        raise CaseFileError(path, f"{path}, line {nodes.line}: no keys; allowed: a case file (.yaml)")
+    return nodes
+
+
+def _compose(text: str, path: Path) -> YamlNode | None:
+    """Return the YAML library's own tree of a text; None where the text is empty."""
+    try:
+        root: YamlNode | None = YAML(pure=True).compose(text)
     except MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         line = "" if mark is None else f", line {mark.line + 1}"
@@ -117,13 +135,15 @@ def parse_yaml(text: str, path: Path) -> Node:
         character = f"U+{ord(text[error.position]):04X}"
         message = f"{place}: broken YAML: the character {character} is not allowed"
         raise CaseFileError(path, message) from error
-    except RecursionError as error:
-        raise CaseFileError(path, f"{path}: sections or lists nested too deeply") from error
-    if nodes is None:
-        raise CaseFileError(path, f"{path}: empty; allowed: a case file (.yaml)")
-    if not isinstance(nodes.value, dict):
-        raise CaseFileError(path, f"{path}, line {nodes.line}: no keys; allowed: a case file (.yaml)")
-    return nodes
+    except (ValueError, OverflowError) as error:
+        # the library makes a character of any escape; it does not say where this fails
+        escape = BEYOND_UNICODE.search(text)
+        if escape is None:
+            raise
+        place = f"{path}, line {text.count(chr(10), 0, escape.start()) + 1}"
+        message = f"{place}: broken YAML: {escape[0]} is no character"
+        raise CaseFileError(path, message) from error
+    return root
 
 
 class _Tree:
@@ -157,6 +177,7 @@ class _Tree:
             line = name.start_mark.line + 1
             if not isinstance(name, ScalarNode) or name.tag == TAG + "merge":
                 raise self.refused(line, key, "a YAML merge or compound key; allowed: plain keys")
+            self.check_characters(name.value, NO_KEY, line, key)
             if name.value in lines:
                 text = f"stated twice, first in line {lines[name.value]}"
                 raise self.refused(line, join(key, name.value), text)
@@ -166,6 +187,7 @@ class _Tree:
     def scalar(self, yaml: ScalarNode, key: str) -> Scalar:
         """Return a scalar's value; only decimal numbers count as numbers."""
         text: str = yaml.value
+        self.check_characters(text, NO_TEXT, yaml.start_mark.line + 1, key)
         match str(yaml.tag).removeprefix(TAG):
             case "null":
                 return None
@@ -177,6 +199,13 @@ class _Tree:
                 return text
             case tag:
                 raise self.refused(yaml.start_mark.line + 1, key, f"the YAML tag {tag}; allowed: no tags")
+
+    def check_characters(self, text: str, refused: re.Pattern[str], line: int, key: str) -> None:
+        """Refuse a text that has a character which no file, terminal or report can show."""
+        found = refused.search(text)
+        if found is not None:
+            character = f"the character U+{ord(found[0]):04X}"
+            raise self.refused(line, key, f"{character} in a text or a key; allowed: readable characters")
 
     def refused(self, line: int, key: str, message: str) -> CaseFileError:
         """Return the error for one place of the file."""

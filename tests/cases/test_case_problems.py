@@ -103,12 +103,51 @@ def test_a_problem_of_the_base_is_told_once(folder):
             "x.yaml, line 2: blood: a YAML merge or compound key; allowed: plain keys",
         ),
         ("{[1]: 2}\n", "x.yaml, line 1: the whole file: a YAML merge or compound key; allowed: plain keys"),
+        ('name: x\nname2: "\\U00110000"\n', "x.yaml, line 2: broken YAML: \\U00110000 is no character"),
+        ('a: \\U0010FFFF\nb: "\\UFFFFFFFF"\n', "x.yaml, line 2: broken YAML: \\UFFFFFFFF is no character"),
         ("wall: !foo {}\n", "x.yaml, line 1: wall: the YAML tag !foo; allowed: no tags"),
         ("name: !!binary eA==\n", "x.yaml, line 1: name: the YAML tag binary; allowed: no tags"),
     ],
 )
 def test_a_broken_file_is_refused_in_one_line(folder, text, problem):
     assert folder.problems_of_text(text) == [problem]
+
+
+@pytest.mark.parametrize(
+    ("escape", "code"),
+    [
+        (r"\uD800", "U+D800"),
+        (r"\uDFFF", "U+DFFF"),
+        (r"\0", "U+0000"),
+        (r"\x1b", "U+001B"),
+        (r"\r", "U+000D"),
+        (r"\x7f", "U+007F"),
+        (r"\N", "U+0085"),
+        (r"\uFFFF", "U+FFFF"),
+    ],
+)
+@pytest.mark.parametrize(
+    ("old", "line", "key"),
+    [
+        ("An artery", 2, "title"),
+        ("15 mm", 4, "geometry.length"),
+        ("data/run.xplt", 19, "reference.plot_file"),
+        ("measured in another artery", 25, "compare.bands[1].reason"),
+        ("wall_thickness", 6, "geometry"),
+    ],
+)
+def test_characters_that_nothing_can_show_are_refused(folder, escape, code, old, line, key):
+    assert folder.problems((old, f'"a{escape}b"')) == [
+        f"x.yaml, line {line}: {key}: the character {code} in a text or a key; allowed: readable characters"
+    ]
+
+
+def test_a_text_may_have_lines_and_a_key_may_not(folder):
+    reason = '"one\\n\\ttwo µ 動 \\U0001F9EA"'
+    (band,) = folder.load(("measured in another artery", reason)).variants["none"].compare.bands
+    assert band.reason == "one\n\ttwo µ 動 \U0001f9ea"
+    (problem,) = folder.problems(("wall_thickness", '"a\\nb"'))
+    assert problem.startswith("x.yaml, line 6: geometry: the character U+000A in a text or a key; ")
 
 
 @pytest.mark.parametrize("variants", ["variants:\n", "variants: {}\n", "variants: 3\n", "variants: [a]\n"])
