@@ -1,6 +1,7 @@
 """What a case compares with its reference: cells, times, and the bands that must hold."""
 
 import math
+from collections.abc import Callable
 from typing import Annotated, Literal
 
 from pydantic import ValidationInfo, field_validator
@@ -35,6 +36,9 @@ AbsoluteStatistic = Literal["rms_difference", "max_difference"]
 Statistic = RelativeStatistic | AbsoluteStatistic
 Event = Literal["systole", "first trough", "second trough", "end diastole"]
 
+# a constant inlet has no largest and no least value
+EVENTS_OF_A_CONSTANT: tuple[Event, ...] = ("end diastole",)
+
 COMPARED_QUANTITIES = words_of(ComparedQuantity)
 RELATIVE_STATISTICS = words_of(RelativeStatistic)
 EVENTS = words_of(Event)
@@ -44,8 +48,12 @@ DEFAULT_N_X, DEFAULT_N_PHI = 120, 48
 DEFAULT_SECTIONS, DEFAULT_ROWS = (1, 39, 61, 82, 120), (4, 15, 25)
 
 
+def _instants(events: tuple[str, ...]) -> str:
+    return f'{choices(events)}, or a time into the last cycle, e.g. "0.3 s"'
+
+
 def _instant(value: object, _context: Context | None) -> str | float:
-    allowed = f'{choices(EVENTS)}, or a time into the last cycle, e.g. "0.3 s"'
+    allowed = _instants(EVENTS)
     if isinstance(value, str) and value in EVENTS:
         return value
     try:
@@ -153,8 +161,9 @@ class Band(Section):
         quantity, statistic = info.data.get("quantity"), info.data.get("statistic")
         if quantity is None or statistic is None:
             return math.nan  # what the limit means is unknown; the band is refused for that key already
-        unit = "1" if statistic in RELATIVE_STATISTICS else FIELDS[quantity].unit
-        return _positive_limit(stated, unit)
+        if statistic in RELATIVE_STATISTICS:
+            return _relative_limit(stated)
+        return _absolute_limit(stated, FIELDS[quantity].unit)
 
     @field_validator("variants")
     @classmethod
@@ -162,14 +171,27 @@ class Band(Section):
         return names if names is None else distinct(names)
 
 
-def _positive_limit(stated: object, unit: str) -> float:
-    """Return a band's limit, in a SI unit as `cases.fields` writes them ("1": a ratio)."""
-    dimension = None if unit == "1" else DIMENSION_OF_UNIT[unit]
-    allowed = 'a positive ratio, e.g. "2 %"'
-    if dimension is not None:
-        allowed = f"a positive {dimension.name} in units such as {choices(dimension.common_units)}"
+def _relative_limit(stated: object) -> float:
+    """Return the limit of a relative statistic as a ratio."""
+    allowed = 'a positive percentage, e.g. "2 %", or a ratio below 1'
+    limit = _positive(stated, parse_ratio, allowed)
+    if limit >= 1 and "%" not in str(stated):
+        raise refused(stated, f'"{stated} %", or a ratio below 1', f"means {limit * 100:g} %")
+    return limit
+
+
+def _absolute_limit(stated: object, unit: str) -> float:
+    """Return the limit of a difference, in a SI unit as `cases.fields` writes them ("1": a number)."""
+    if unit == "1":
+        return _positive(stated, parse_ratio, "a positive number")
+    dimension = DIMENSION_OF_UNIT[unit]
+    allowed = f"a positive {dimension.name} in units such as {choices(dimension.common_units)}"
+    return _positive(stated, lambda text: parse_quantity(text, dimension), allowed)
+
+
+def _positive(stated: object, parse: Callable[[object], float], allowed: str) -> float:
     try:
-        limit = parse_ratio(stated) if dimension is None else parse_quantity(stated, dimension)
+        limit = parse(stated)
     except QuantityError as error:
         raise refused(stated, allowed, str(error)) from error
     if limit <= 0:
@@ -185,7 +207,8 @@ class Compare(Section):
     cells : Cells
         Cells of the tables.
     times : tuple of str or float
-        Instants of the last cycle: names of events, or seconds from the cycle's start.
+        Instants of the last cycle: names of events, or seconds from the cycle's start. In a loaded case with
+        a constant inlet the only event is end diastole.
     bands : tuple of Band
         The declared bands; may be empty.
     """
@@ -195,3 +218,29 @@ class Compare(Section):
     bands: tuple[Band, ...] = ()
 
     _times = field_validator("times")(distinct)
+
+    def in_cycle(self, period: float, constant: bool) -> tuple[str | float, ...]:
+        """Return the times for an inlet: stated ones must lie in its cycle.
+
+        Parameters
+        ----------
+        period : float
+            The inlet's period in s.
+        constant : bool
+            Whether the inlet is constant.
+
+        Raises
+        ------
+        RefusedValueError
+            A stated time lies beyond the period, or names an event of a pulse where the inlet is constant.
+        """
+        if constant and "times" not in self.model_fields_set:
+            return EVENTS_OF_A_CONSTANT
+        for item, time in enumerate(self.times):
+            if isinstance(time, float) and time > period:
+                allowed = f"at most the period of the inlet ({period:g} s)"
+                raise refused(f"{time:g} s", allowed, key=("times", item))
+            if constant and isinstance(time, str) and time not in EVENTS_OF_A_CONSTANT:
+                reason = "a constant inlet has none"
+                raise refused(time, _instants(EVENTS_OF_A_CONSTANT), reason, key=("times", item))
+        return self.times

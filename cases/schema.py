@@ -109,7 +109,7 @@ class Case(Section):
     reference : FebioReference or None
         The 3D results to compare with.
     compare : Compare
-        Cells (on the solver's grid), times and bands of the comparison.
+        Cells (on the solver's grid), times (of the inlet's cycle) and bands of the comparison.
     """
 
     title: Words
@@ -186,15 +186,13 @@ class Case(Section):
 
     @field_validator("compare")
     @classmethod
-    def _on_the_grid(cls, compare: Compare, info: ValidationInfo) -> Compare:
+    def _in_the_grid_and_the_cycle(cls, compare: Compare, info: ValidationInfo) -> Compare:
         inlet, solver = info.data.get("inlet"), info.data.get("solver")
         if inlet is None or solver is None:
             return compare
-        for item, time in enumerate(compare.times):
-            if isinstance(time, float) and time > inlet.period:
-                allowed = f"at most the period of the inlet ({inlet.period:g} s)"
-                raise refused(f"{time:g} s", allowed, key=("times", item))
-        return compare.model_copy(update={"cells": compare.cells.on_grid(solver.n_x, solver.n_phi)})
+        times = compare.in_cycle(inlet.period, constant=inlet.value is not None)
+        cells = compare.cells.on_grid(solver.n_x, solver.n_phi)
+        return compare.model_copy(update={"cells": cells, "times": times})
 
     @property
     def input_files(self) -> tuple[Path, ...]:

@@ -137,6 +137,39 @@ def test_a_band_of_differences_carries_the_unit_of_its_quantity(folder):
     assert band.variants == ("local",)
 
 
+@pytest.mark.parametrize(("stated", "limit"), [("2 %", 0.02), ("150 %", 1.5), ("0.99", 0.99), ("100%", 1.0)])
+def test_a_relative_limit_is_a_percentage_or_a_ratio(folder, stated, limit):
+    (band,) = folder.load(("limit: 1 %", f"limit: {stated}")).variants["none"].compare.bands
+    assert band.limit == limit
+
+
+def test_a_difference_of_exponents_has_no_unit(folder):
+    edits = (("quantity: radius", "quantity: profile_exponent"), ("rms_error", "rms_difference"))
+    (band,) = folder.load(*edits, ("limit: 1 %", "limit: 2")).variants["none"].compare.bands
+    assert band.limit == 2.0
+    (problem,) = folder.problems(*edits, ("limit: 1 %", "limit: 0"))
+    assert problem == "x.yaml, line 24: compare.bands[1].limit: 0; allowed: a positive number"
+
+
+CONSTANT = ("waveform: data/inlet.csv", "value: 8 cm/s")
+
+
+def test_a_constant_inlet_is_compared_at_the_end_of_the_cycle(folder):
+    assert folder.load(CONSTANT).variants["none"].compare.times == ("end diastole",)
+    stated = ("compare:", "compare:\n  times: [0.3 s, end diastole]")
+    assert folder.load(CONSTANT, stated).variants["none"].compare.times == (0.3, "end diastole")
+
+
+@pytest.mark.parametrize("event", ["systole", "first trough", "second trough"])
+def test_a_constant_inlet_has_no_pulse_to_compare(folder, event):
+    assert folder.problems(CONSTANT, ("compare:", f"compare:\n  times: [0.3 s, {event}]")) == [
+        (
+            f"x.yaml, line 21: compare.times[2]: {event}: a constant inlet has none; "
+            'allowed: end diastole, or a time into the last cycle, e.g. "0.3 s"'
+        )
+    ]
+
+
 @pytest.mark.parametrize("phi", ["[225 deg, 135 deg]", "[0 deg, 360 deg]", "[0 rad, 1 rad]"])
 def test_a_patch_may_cross_zero_or_go_all_round(folder, phi):
     calcification = folder.load(("[135 deg, 225 deg]", phi)).variants["local"].calcification
