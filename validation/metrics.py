@@ -58,8 +58,10 @@ class Models:
         return rom.to_numpy().astype(float), reference.to_numpy().astype(float)
 
     def row(self, quantity: str, statistic: str, **values: Any) -> Row:
-        """Row of this variant."""
-        return Row(self.case, self.variant, quantity, statistic, unit=FIELDS[quantity].unit, **values)
+        """Row of this variant; its unit is that of values, or of an absolute error."""
+        has_unit = statistic in DIFFERENCES or "rom" in values or "reference" in values
+        unit = FIELDS[quantity].unit if has_unit else "1"
+        return Row(self.case, self.variant, quantity, statistic, unit=unit, **values)
 
 
 def models_of(comparison: xr.Dataset, variant: str) -> Models:
@@ -144,6 +146,7 @@ def _with_place(row: Row, models: Models, rom: Floats, reference: Floats) -> Row
     at = np.unravel_index(int(np.argmax(np.abs(error))), error.shape)
     return replace(
         row,
+        unit=FIELDS[row.quantity].unit,
         i=int(at[1]) + 1,
         j=int(at[2]) + 1 if len(at) > 2 else None,
         t_s=float(models.rom["time"].to_numpy()[at[0]]),
