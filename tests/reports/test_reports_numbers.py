@@ -13,7 +13,7 @@ finite = st.floats(min_value=-1e9, max_value=1e9)
 def test_fixed_text_is_the_value_to_half_a_last_digit(value: float, decimals: int) -> None:
     text = numbers.fixed(value, decimals)
     read = float(text.replace("−", "-"))
-    assert math.isclose(read, value, abs_tol=0.5000001 * 10.0**-decimals, rel_tol=1e-15)
+    assert math.isclose(read, value, abs_tol=0.5 * 10.0**-decimals + 2 * math.ulp(value))
     assert "-" not in text
 
 
