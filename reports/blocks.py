@@ -23,6 +23,13 @@ class Bullets:
 
 
 @dataclass(frozen=True)
+class Warnings:
+    """Statements that cast doubt on the report, set so that nobody overlooks them."""
+
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Listing:
     """Text that is shown as it is: a command, a case file."""
 
@@ -73,7 +80,7 @@ class Figure:
     csv: str
 
 
-Block = Paragraph | Bullets | Listing | Table | Figure
+Block = Paragraph | Bullets | Warnings | Listing | Table | Figure
 
 
 @dataclass(frozen=True)

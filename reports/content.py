@@ -8,12 +8,12 @@ from reports.numbers import counted, listed
 
 def identity(comparison: Comparison) -> str:
     """Case, commit and date of a run in one line."""
-    commit = comparison.provenance["git_commit"]
+    commit = comparison.provenance.git_commit
     return " · ".join(
         (
             comparison.case,
-            f"commit {str(commit)[:9]}" if commit else "no commit",
-            str(comparison.provenance["created"])[:10],
+            f"commit {commit[:9]}" if commit else "no commit",
+            comparison.provenance.created[:10],
         )
     )
 
@@ -26,7 +26,7 @@ def report(comparison: Comparison) -> Report:
         f"fluid–structure simulation (3D), cell by cell: {counted(len(comparison.variants), 'variant')}, "
         f"{listed(comparison.variants)}.",
         identity=identity(comparison),
-        created=str(comparison.provenance["created"]),
+        created=comparison.provenance.created,
         sections=(
             verdict.section(comparison),
             change.section(comparison),

@@ -11,7 +11,7 @@ from reports.blocks import Block, Figure, Paragraph, Section, Subsection
 from reports.cells import chunks
 from reports.figures import Curves, PanelRow, small_multiples
 from reports.load import Comparison
-from reports.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
+from reports.numbers import DIFFERENCE_UNITS, fixed, listed, signed, with_unit
 from reports.tabular import comma_separated
 from reports.words import column_heading, row_heading, spot
 
@@ -57,9 +57,7 @@ def _panel_row(comparison: Comparison, line: _Line, columns: Sequence[int]) -> P
 def _farthest(comparison: Comparison, line: _Line) -> str:
     """Say where the models differ most."""
     difference = line.rom - line.reference
-    if not np.isfinite(difference).any():
-        return f"{line.field.label} has no figure in one of the models"
-    state, column = np.unravel_index(int(np.nanargmax(np.abs(difference))), difference.shape)
+    state, column = np.unravel_index(int(np.abs(difference).argmax()), difference.shape)
     unit, factor = DIFFERENCE_UNITS[line.field.unit]
     t = float(comparison.curves["time"].values[state])
     value = with_unit(signed(float(difference[state, column]) * factor), unit)
@@ -67,7 +65,7 @@ def _farthest(comparison: Comparison, line: _Line) -> str:
 
 
 def _worst_line(lines: Sequence[_Line]) -> _Line:
-    return max(lines, key=lambda line: float(np.nan_to_num(np.abs(line.rom - line.reference)).max()))
+    return max(lines, key=lambda line: float(np.abs(line.rom - line.reference).max()))
 
 
 def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Line]) -> tuple[Figure, ...]:
@@ -118,24 +116,18 @@ def _spread(comparison: Comparison, variant: str) -> str:
     """Say how little the fields vary around an artery whose wall is the same all around."""
     j = comparison.rows_of(variant)[0]
     three, two = (
-        _largest_spread(comparison.curves[f"{model}_radius"].sel(variant=variant).values)
+        float(np.ptp(comparison.curves[f"{model}_radius"].sel(variant=variant).values, axis=-1).max())
         for model in ("reference", "rom")
     )
     return (
         f"The wall of variant {variant} is the same all around, so one row stands for all: j = {j}. At the "
-        f"shown columns the radius varies around the artery by {three} in 3D and {two} in 2D."
+        f"shown columns the radius varies around the artery by at most {_micrometres(three)} in 3D and "
+        f"{_micrometres(two)} in 2D."
     )
 
 
-def _largest_spread(radius: Array) -> str:
-    """Largest range over φ, the last axis, in words."""
-    spread = np.ptp(radius, axis=-1)
-    spread = spread[np.isfinite(spread)]
-    return (
-        f"at most {with_unit(rounded(1e6 * float(spread.max()), 3), 'μm')}"
-        if spread.size
-        else "an unknown amount"
-    )
+def _micrometres(length: float) -> str:
+    return with_unit(fixed(1e6 * length, 2), "μm")
 
 
 def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:

@@ -1,20 +1,25 @@
 """The rows of metrics.json, found again by what they are about."""
 
-import json
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass as plain_dataclass
 from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field, FiniteFloat, TypeAdapter
+from pydantic.dataclasses import dataclass
 
 from reports.errors import ReportError
+from reports.strict_json import read_json
 
-STATUSES = ("OK", "FAIL", "MISSING")
 DIFFERENCE_STATISTICS = ("rms_difference", "max_difference")
-_TEXTS = ("case", "variant", "quantity", "statistic", "unit", "status")
-_NUMBERS = ("i", "j", "t_s", "rom", "reference", "error", "band")
+
+Status = Literal["", "OK", "FAIL", "MISSING"]
+Number = Annotated[int, Field(ge=1)]
+Limit = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, config=ConfigDict(strict=True))
 class Row:
     """One figure of the comparison; numbers are SI, errors relative unless the statistic is a difference."""
 
@@ -22,15 +27,15 @@ class Row:
     variant: str
     quantity: str
     statistic: str
-    i: int | None
-    j: int | None
-    t_s: float | None
-    rom: float | None
-    reference: float | None
-    error: float | None
+    i: Number | None
+    j: Number | None
+    t_s: FiniteFloat | None
+    rom: FiniteFloat | None
+    reference: FiniteFloat | None
+    error: FiniteFloat | None
     unit: str
-    band: float | None
-    status: str
+    band: Limit | None
+    status: Status
 
     @property
     def ratio(self) -> float:
@@ -40,7 +45,7 @@ class Row:
         return abs(self.error) / self.band if self.band else math.inf
 
 
-@dataclass(frozen=True)
+@plain_dataclass(frozen=True)
 class Metrics:
     """All rows, and those without a band by (variant, quantity, statistic, i, j, t)."""
 
@@ -63,6 +68,16 @@ class Metrics:
         """Return the one row about this, or None where the comparison has none."""
         return self.index.get((variant, quantity, statistic, i, j, _instant(t_s)))
 
+    def largest(self, variant: str, quantity: str, statistic: str) -> float | None:
+        """Return the largest |error| of all rows of a statistic, or None where none has an error."""
+        errors = [
+            abs(row.error)
+            for row in self.rows
+            if (row.variant, row.quantity, row.statistic) == (variant, quantity, statistic)
+            and row.error is not None
+        ]
+        return max(errors, default=None)
+
     def pooled(self, statistic: str) -> Iterator[Row]:
         """Rows of a statistic over all cells and states (a maximum names where it was found)."""
         for row in self.rows:
@@ -71,72 +86,42 @@ class Metrics:
                 yield row
 
 
+_ROWS = TypeAdapter(tuple[Row, ...])
+
+
 def read_metrics(path: Path) -> Metrics:
     """Read metrics.json.
 
     Raises
     ------
     ReportError
-        If it is no list of rows with the declared columns, types and statuses.
+        If it is no list of rows with the declared columns and types, has no row, or a row's status is not
+        what follows from its error and band.
     """
-    try:
-        records = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ReportError(f"{path}: cannot be read as JSON: {error}") from error
-    if not isinstance(records, list):
-        raise ReportError(f"{path}: a list of rows is expected, found {type(records).__name__}")
-    rows = tuple(_row(path, number, record) for number, record in enumerate(records, start=1))
+    rows = read_json(path, _ROWS)
+    if not rows:
+        raise ReportError(f"{path}: without any row; a finished comparison has some")
+    for number, row in enumerate(rows, start=1):
+        if row.status != judged(row):
+            raise ReportError(
+                f"{path}: row {number} ({row.variant}, {row.quantity}, {row.statistic}): status is "
+                f"{row.status!r}, but an error of {row.error} with a band of {row.band} gives {judged(row)!r}"
+            )
     index: dict[tuple[object, ...], Row] = {
         (r.variant, r.quantity, r.statistic, r.i, r.j, _instant(r.t_s)): r for r in rows if not r.status
     }
     return Metrics(rows, index)
 
 
-def _instant(t_s: float | None) -> int | None:
-    """Time in whole microseconds, so that a time that went through text still finds its row."""
-    return None if t_s is None else round(t_s * 1e6)
-
-
-def _row(path: Path, number: int, record: object) -> Row:
-    where = f"{path}: row {number}"
-    if not isinstance(record, dict):
-        raise ReportError(f"{where}: an object is expected, found {type(record).__name__}")
-    missing = [name for name in (*_TEXTS, *_NUMBERS) if name not in record]
-    if missing:
-        raise ReportError(f"{where}: without {', '.join(missing)}")
-    texts = {name: _text(where, name, record[name]) for name in _TEXTS}
-    numbers = {name: _number(where, name, record[name]) for name in _NUMBERS}
-    if texts["status"] not in ("", *STATUSES):
-        raise ReportError(f"{where}: status {texts['status']!r}; allowed are {', '.join(STATUSES)} or none")
-    i, j = (None if numbers[name] is None else int(numbers[name] or 0) for name in ("i", "j"))
-    return Row(
-        case=texts["case"],
-        variant=texts["variant"],
-        quantity=texts["quantity"],
-        statistic=texts["statistic"],
-        i=i,
-        j=j,
-        t_s=numbers["t_s"],
-        rom=numbers["rom"],
-        reference=numbers["reference"],
-        error=numbers["error"],
-        unit=texts["unit"],
-        band=numbers["band"],
-        status=texts["status"],
-    )
-
-
-def _text(where: str, name: str, value: object) -> str:
-    if value is None:
+def judged(row: Row) -> Status:
+    """Judge a row by its own numbers: "" where no band is declared."""
+    if row.band is None:
         return ""
-    if not isinstance(value, str):
-        raise ReportError(f"{where}: {name} is {value!r}; text is expected")
-    return value
+    if row.error is None:
+        return "MISSING"
+    return "OK" if abs(row.error) <= row.band else "FAIL"
 
 
-def _number(where: str, name: str, value: object) -> float | None:
-    if value is None or value == "":
-        return None
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ReportError(f"{where}: {name} is {value!r}; a number is expected")
-    return None if math.isnan(value) else float(value)
+def _instant(t_s: float | None) -> float | None:
+    """Time to a microsecond, so that a time that went through text still finds its row."""
+    return None if t_s is None else round(t_s, 6)

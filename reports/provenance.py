@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Mapping
-from typing import Any
 
 from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, Table
 from reports.load import Comparison
@@ -43,20 +42,20 @@ def _run(comparison: Comparison) -> Table:
         ("what", "value"),
         {
             "case": comparison.case,
-            "case file": p["case"].get("path"),
-            "created": p["created"],
-            "package version": p["package_version"],
-            "git commit": p["git_commit"],
-            "Python": p["python"],
-            **{f"machine: {name}": value for name, value in p["machine"].items()},
+            "case file": p.case.path,
+            "created": p.created,
+            "package version": p.package_version,
+            "git commit": p.git_commit,
+            "Python": p.python,
+            **{f"machine: {name}": value for name, value in p.machine.items()},
         },
     )
 
 
 def _models(comparison: Comparison, side: str, caption: str) -> Table:
     """Write facts of one model, a row each, with a column for each variant."""
-    facts: dict[str, Any] = {
-        name: comparison.provenance["variants"].get(name, {}).get(side, {}) for name in comparison.variants
+    facts = {
+        name: getattr(comparison.provenance.variants[name], side).facts() for name in comparison.variants
     }
     keys = dict.fromkeys(key for of_variant in facts.values() for key in of_variant)
     return Table(
@@ -69,12 +68,9 @@ def _models(comparison: Comparison, side: str, caption: str) -> Table:
 
 def _inputs(comparison: Comparison) -> Table:
     p = comparison.provenance
-    files = [
-        {"path": p["case"].get("path"), "bytes": None, "sha256": p["case"].get("sha256")},
-        *p["inputs"],
-    ]
-    unique = {(str(f.get("path")), str(f.get("sha256"))): f for f in files}
-    rows = tuple((path, _word(f.get("bytes")), sha) for (path, sha), f in unique.items())
+    files = [(p.case.path, ABSENT, p.case.sha256)]
+    files += [(file.path, str(file.bytes), file.sha256) for file in p.inputs]
+    rows = tuple({(path, sha): (path, size, sha) for path, size, sha in files}.values())
     return Table(
         "inputs",
         "Files read, with the checksums that identify them.",
@@ -91,19 +87,19 @@ def section(comparison: Comparison) -> Section:
             "How to repeat it: check out the commit named below, install the package, put the files listed "
             "under inputs in place and run the command."
         ),
-        Listing("Command", str(p["command"])),
+        Listing("Command", p.command),
         _run(comparison),
         _models(comparison, "rom", "2D model: grid, time step and settings."),
         _models(comparison, "reference", "3D reference: files, mesh and states."),
     ]
-    if p["wall_times_s"]:
+    if p.wall_times_s:
         blocks.append(
-            _pairs("wall-times", "Wall-clock times of this run.", ("step", "seconds"), p["wall_times_s"])
+            _pairs("wall-times", "Wall-clock times of this run.", ("step", "seconds"), p.wall_times_s)
         )
     blocks.append(_inputs(comparison))
-    blocks.append(_pairs("versions", "Versions of the libraries.", ("package", "version"), p["versions"]))
-    if p["notes"]:
-        blocks.append(Paragraph(f"{counted(len(p['notes']), 'note')} of the run, warnings and assumptions:"))
-        blocks.append(Bullets(tuple(str(note) for note in p["notes"])))
+    blocks.append(_pairs("versions", "Versions of the libraries.", ("package", "version"), p.versions))
+    if p.notes:
+        blocks.append(Paragraph(f"{counted(len(p.notes), 'note')} of the run, warnings and assumptions:"))
+        blocks.append(Bullets(p.notes))
     blocks.append(Listing("The case file", comparison.case_yaml))
     return Section("provenance", "Provenance", tuple(blocks))

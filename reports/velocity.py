@@ -60,9 +60,7 @@ def _panel_row(comparison: Comparison, variant: str, line: _Line, columns: Seque
 
 def _farthest(comparison: Comparison, lines: Sequence[_Line]) -> str:
     differences = np.stack([line.rom - line.reference for line in lines])
-    if not np.isfinite(differences).any():
-        return "one of the models has no profile here"
-    row, column, ray = np.unravel_index(int(np.nanargmax(np.abs(differences))), differences.shape)
+    row, column, ray = np.unravel_index(int(np.abs(differences).argmax()), differences.shape)
     y = float(comparison.profiles["y"].values[ray])
     value = with_unit(
         signed(float(differences[row, column, ray]) * _FIELD.display_factor), _FIELD.display_unit

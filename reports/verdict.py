@@ -2,9 +2,10 @@
 
 from collections import Counter
 
-from reports.blocks import Block, Bullets, Column, Paragraph, Section, Table
+from reports import trust
+from reports.blocks import Block, Bullets, Column, Paragraph, Section, Table, Warnings
 from reports.load import Comparison
-from reports.metrics import Row
+from reports.metrics import Row, Status
 from reports.numbers import ABSENT, counted, listed, percent, rounded, unsigned
 from reports.words import limit, measure, place, quantity_words, statistic_words
 
@@ -32,7 +33,7 @@ def headline(comparison: Comparison) -> str:
     return f"{opening} ({'; '.join(parts)})."
 
 
-def _tally(count: Counter[str]) -> str:
+def _tally(count: Counter[Status]) -> str:
     words = [f"{count['OK']} of {count.total()} hold"]
     words += [f"{count['FAIL']} fail"] if count["FAIL"] else []
     words += [f"{count['MISSING']} missing"] if count["MISSING"] else []
@@ -66,8 +67,8 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
         "Each 3D reference is one run on one mesh: how far its values are from those of a finer mesh is not "
         "measured here, so a difference smaller than that error says nothing about the 2D model."
     )
-    variants = comparison.provenance["variants"]
-    single = [n for n in comparison.variants if variants.get(n, {}).get("rom", {}).get("cycles") == 1]
+    variants = comparison.provenance.variants
+    single = [name for name in comparison.variants if variants[name].rom.cycles == 1]
     if single:
         said.append(
             f"The 2D model ran a single cycle for {listed(single)}: whether it had become periodic is not "
@@ -85,12 +86,12 @@ def _error_text(row: Row) -> str:
     return text
 
 
-def reasons(comparison: Comparison, row: Row) -> str:
-    """Return the reason declared with a row's band."""
-    for band in comparison.provenance["bands"]:
-        same = band.get("quantity") == row.quantity and band.get("statistic") == row.statistic
-        if same and row.variant in (band.get("variants") or comparison.variants):
-            return str(band.get("reason", ""))
+def reason(comparison: Comparison, row: Row) -> str:
+    """Return the reason declared with the band that a row judges; "" if none is known."""
+    for band in comparison.provenance.bands:
+        same = (band.quantity, band.statistic, band.limit) == (row.quantity, row.statistic, row.band)
+        if same and row.variant in (comparison.variants if band.variants is None else band.variants):
+            return band.reason
     return ""
 
 
@@ -104,7 +105,7 @@ def _band_table(comparison: Comparison) -> Table:
             _error_text(row),
             limit(row),
             rounded(row.ratio, 2) if row.error is not None else ABSENT,
-            reasons(comparison, row),
+            reason(comparison, row),
         )
         for row in worst_first(comparison.metrics.bands())
     )
@@ -172,11 +173,15 @@ def _pooled_table(comparison: Comparison) -> Table | None:
 def section(comparison: Comparison) -> Section:
     """Build the section."""
     blocks: list[Block] = [Paragraph(headline(comparison), lead=True)]
+    warnings = (*trust.doubts(comparison), *comparison.provenance.warnings)
+    if warnings:
+        blocks.append(Warnings(warnings))
     sentence = worst(comparison)
     if sentence:
         blocks += [Paragraph(sentence), _band_table(comparison)]
     elif comparison.metrics.bands():
         blocks.append(_band_table(comparison))
+    blocks.append(trust.table(comparison))
     pooled = _pooled_table(comparison)
     if pooled:
         blocks.append(pooled)

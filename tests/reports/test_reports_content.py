@@ -11,7 +11,7 @@ import synthetic_comparison as synthetic
 import xarray as xr
 
 from reports import change, cycle, velocity, verdict
-from reports.blocks import Bullets, Figure, Paragraph, Section, Subsection, Table
+from reports.blocks import Bullets, Figure, Paragraph, Section, Subsection, Table, Warnings
 from reports.load import load
 
 Rows = list[dict[str, Any]]
@@ -70,6 +70,97 @@ def test_the_verdict_counts_what_the_metrics_hold(finished: tuple[Path, Rows]) -
     assert f"local: {local.count('OK')} of {len(local)} hold, {local.count('FAIL')} fail, 1 missing)." in said
 
 
+def test_a_reason_is_that_of_the_limit_and_the_variant(tmp_path: Path, small: synthetic.Setup) -> None:
+    def band(limit: float, reason: str, *variants: str) -> dict[str, Any]:
+        return {**small.bands[0], "limit": limit, "reason": reason, "variants": list(variants)}
+
+    bands = [
+        band(0.03, "loose", "none", "local"),
+        band(0.02, "tight", "local"),
+        band(0.02, "tighter in none", "none"),
+    ]
+    setup = dataclasses.replace(small, variants=("none", "local"), bands=bands)
+    synthetic.write(tmp_path, setup)
+    table = _table(verdict.section(load(tmp_path)), "bands")
+    found = {(row[0], row[5].replace("\u00a0", " ")): row[-1] for row in table.rows}
+    assert found == {
+        ("none", "3 %"): "loose",
+        ("local", "3 %"): "loose",
+        ("local", "2 %"): "tight",
+        ("none", "2 %"): "tighter in none",
+    }
+
+
+def test_the_checks_of_the_3d_side_are_shown(finished: tuple[Path, Rows]) -> None:
+    directory, rows = finished
+    table = _table(verdict.section(load(directory)), "trust")
+    assert [row[0] for row in table.rows] == list(synthetic.VARIANTS)
+    inflow = max(row["error"] for row in rows if row["statistic"] == "prescribed_inflow")
+    for row in table.rows:
+        defect = _find(rows, variant=row[0], quantity="mass_defect", statistic="largest")["reference"]
+        shown = [text.replace("\u00a0", " ") for text in row[1:]]
+        assert shown == [
+            "0.10 %",
+            f"{100 * inflow:.2f} %",
+            f"{100 * defect:.2f} %",
+            "0 %",
+            "100.00 %",
+            "< 0.01 %",
+        ]
+
+
+def _warnings(directory: Path) -> tuple[str, ...]:
+    section = verdict.section(load(directory))
+    assert [type(block) for block in section.blocks[:2]] == [Paragraph, Warnings]
+    assert isinstance(section.blocks[1], Warnings)
+    return section.blocks[1].items
+
+
+@pytest.mark.parametrize(
+    ("statistic", "error", "said"),
+    [
+        ("plane_integral", -0.00501, "In local the 3D flow rate read along rays is up to 0.50 %"),
+        ("prescribed_inflow", 0.0201, "In local the 3D inflow is up to 2.01 %"),
+    ],
+)
+def test_a_failed_check_of_the_3d_side_is_a_warning(
+    tmp_path: Path, small: synthetic.Setup, statistic: str, error: float, said: str
+) -> None:
+    rows = synthetic.write(tmp_path, small)
+    next(row for row in rows if row["statistic"] == statistic)["error"] = error
+    (tmp_path / "metrics.json").write_text(json.dumps(rows))
+    (warning,) = _warnings(tmp_path)
+    assert warning.replace("\u00a0", " ").startswith(said)
+
+
+def test_a_cycle_that_is_not_covered_is_a_warning(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    path = tmp_path / "provenance.json"
+    path.write_text(path.read_text().replace('"coverage": 1.0', '"coverage": 0.94'))
+    (warning,) = _warnings(tmp_path)
+    assert "local cover only 94.00\u00a0% of the cycle" in warning
+
+
+def test_without_doubt_there_is_no_warning(finished: tuple[Path, Rows]) -> None:
+    assert not _blocks(verdict.section(load(finished[0])), Warnings)
+
+
+def test_an_older_result_without_the_newer_keys_is_shown(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    path = tmp_path / "provenance.json"
+    provenance = json.loads(path.read_text())
+    del provenance["warnings"]
+    del provenance["variants"]["local"]["reference"]["coverage"]
+    del provenance["variants"]["local"]["rom"]["cycle_change"]
+    for band in provenance["bands"]:
+        band["variants"] = None
+    path.write_text(json.dumps(provenance))
+    section = verdict.section(load(tmp_path))
+    assert not _blocks(section, Warnings)
+    assert _table(section, "trust").rows[0][-2:] == ("—", "—")
+    assert all(row[-1] for row in _table(section, "bands").rows)
+
+
 def test_what_is_missing_is_said_not_to_be_known(finished: tuple[Path, Rows]) -> None:
     unknown = verdict.unknowns(load(finished[0]))
     assert any("lag of the reduced model's outlet flow" in said for said in unknown)
@@ -87,7 +178,7 @@ def test_without_bands_nothing_is_judged(tmp_path: Path, small: synthetic.Setup)
     synthetic.write(tmp_path, dataclasses.replace(small, bands=[]))
     section = verdict.section(load(tmp_path))
     assert "declares no band" in section.blocks[0].text  # type: ignore[union-attr]
-    assert [table.key for table in _blocks(section, Table)] == ["pooled"]
+    assert [table.key for table in _blocks(section, Table)] == ["trust", "pooled"]
 
 
 def test_an_error_close_to_its_limit_is_told_from_it(tmp_path: Path, small: synthetic.Setup) -> None:
@@ -211,20 +302,12 @@ def test_many_cells_are_spread_over_several_figures_and_tables(
     assert ["i = 1, 2, 3, 4 and 5" in figures[0].caption, "i = 6 and 7" in figures[1].caption] == [True, True]
 
 
-def test_a_reference_without_fields_leaves_gaps_not_errors(tmp_path: Path, small: synthetic.Setup) -> None:
-    setup = dataclasses.replace(small, variants=("none",))
-    rows = synthetic.write(tmp_path, setup)
-    arrays = synthetic.fields(setup)
-    for name in arrays:
-        if name.startswith("reference"):
-            arrays[name] = np.full_like(arrays[name], np.nan)
-    synthetic.dataset(setup, arrays).to_netcdf(tmp_path / "comparison.nc")
+def test_rows_without_figures_leave_gaps_not_errors(tmp_path: Path, small: synthetic.Setup) -> None:
+    rows = synthetic.write(tmp_path, small)
     for row in rows:
-        row.update(reference=None, error=None)
+        row.update(reference=None, error=None, status="MISSING" if row["status"] else "")
     (tmp_path / "metrics.json").write_text(json.dumps(rows))
     comparison = load(tmp_path)
-    figure = _blocks(cycle.section(comparison), Figure)[0]
-    assert "no figure in one of the models" in figure.caption
-    assert "an unknown amount in 3D" in _blocks(cycle.section(comparison), Paragraph)[0].text
     assert "—" in _table(change.section(comparison), "section-flow").rows[0]
+    assert "—" in _table(verdict.section(comparison), "trust").rows[0]
     assert _blocks(verdict.section(comparison), Bullets)

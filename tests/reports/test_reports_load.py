@@ -1,4 +1,6 @@
+import hashlib
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -78,6 +80,21 @@ def test_a_file_of_another_kind_is_named(tmp_path: Path, small: synthetic.Setup,
         (lambda d: d.assign_attrs(compare_times_s=np.array([0.1234])), "no state at 0.1234 s .systole."),
         (lambda d: d.assign_attrs(compare_times_s=np.array([0.0, 0.1])), "2 compare_times_s"),
         (lambda d: d.assign_attrs(compare_time_names="systole"), "compare_time_names"),
+        (lambda d: d.assign_attrs(compare_time_names=9999 * "["), "compare_time_names"),
+        (lambda d: d.assign_attrs(compare_time_names="[1]"), "compare_time_names"),
+        (lambda d: d.assign_attrs(compare_time_names=3), "compare_time_names is .*3.*; text is expected"),
+        (lambda d: d.assign_attrs(compare_times_s="systole"), "compare_times_s is 'systole'; finite numbers"),
+        (lambda d: d.assign_attrs(compare_times_s=np.nan), "compare_times_s is .*nan.*; finite numbers"),
+        (lambda d: d.assign_attrs(period_s="0.8 s"), "period_s is '0.8 s'; finite numbers"),
+        (lambda d: d.assign_attrs(period_s=0.0), "period_s is .*0.0.*; one positive number"),
+        (lambda d: d.assign_attrs(compare_i="1 2"), "compare_i is '1 2'; whole numbers"),
+        (lambda d: d.assign_attrs(compare_i=np.array([1.5])), "compare_i is .*1.5.*; whole numbers"),
+        (lambda d: d.assign_attrs(case="other"), "case is 'synthetic'; comparison.nc is of 'other'"),
+        (lambda d: d.assign_attrs(case_yaml="name: other"), "sha256 is .* not that of the case file's text"),
+        (lambda d: d.assign_coords(variant=["ring"]), "variant 'local' is none of ring"),
+        (lambda d: d.assign_coords(time=d["time"].values[::-1]), "time does not increase"),
+        (lambda d: d.assign_coords(x=[f"{x} m" for x in d["x"].values]), "x is of type .*; numbers are"),
+        (lambda d: d.isel(phi=[]).drop_encoding(), "nothing along phi"),
     ],
 )
 def test_a_dataset_that_does_not_fit_is_refused(
@@ -104,10 +121,20 @@ def test_a_missing_attribute_is_named(tmp_path: Path, small: synthetic.Setup) ->
     ("change", "message"),
     [
         (lambda rows: rows[1].pop("unit"), "row 2: without unit"),
-        (lambda rows: rows[0].update(status="GOOD"), "row 1: status 'GOOD'"),
-        (lambda rows: rows[0].update(rom="4.7"), "row 1: rom is '4.7'"),
-        (lambda rows: rows[0].update(variant=3), "row 1: variant is 3"),
-        (lambda rows: rows.append("row"), "an object is expected"),
+        (lambda rows: rows[0].update(status="GOOD"), "row 1, status: .* found 'GOOD'"),
+        (lambda rows: rows[0].update(rom="4.7"), "row 1, rom: .* found '4.7'"),
+        (lambda rows: rows[0].update(variant=3), "row 1, variant: .* found 3"),
+        (lambda rows: rows.append("row"), "row 72: .* an object, found 'row'"),
+        (lambda rows: rows[1].update(i=math.inf), "row 2, i: .* found inf"),
+        (lambda rows: rows[1].update(i=0), "row 2, i: .* found 0"),
+        (lambda rows: rows[1].update(rom=math.nan), "row 2, rom: .* finite"),
+        (lambda rows: rows[1].update(rom=10**400), "row 2, rom: "),
+        (
+            lambda rows: rows[1].update(case="other"),
+            "row 2: case is 'other'; comparison.nc is of 'synthetic'",
+        ),
+        (lambda rows: rows[1].update(variant="ring"), "row 2: variant 'ring' is none of local"),
+        (lambda rows: rows.clear(), "without any row"),
     ],
 )
 def test_a_row_of_metrics_that_does_not_fit_is_named(
@@ -119,18 +146,126 @@ def test_a_row_of_metrics_that_does_not_fit_is_named(
         load(tmp_path)
 
 
-def test_a_missing_key_of_provenance_is_named(tmp_path: Path, small: synthetic.Setup) -> None:
-    synthetic.write(tmp_path, small)
-    _change_json(tmp_path / "provenance.json", lambda p: p.pop("inputs"))
-    with pytest.raises(ReportError, match="without inputs"):
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"status": "OK"}, "status is 'OK', but an error of 0.03 with a band of 0.02 gives 'FAIL'"),
+        ({"error": -0.02, "status": "FAIL"}, "gives 'OK'"),
+        ({"error": None}, "gives 'MISSING'"),
+        ({"band": None}, "gives ''"),
+        ({"status": ""}, "status is ''"),
+        ({"band": -0.02, "status": "FAIL"}, "band: .* greater than or equal to 0"),
+    ],
+)
+def test_a_verdict_that_contradicts_its_numbers_is_refused(
+    tmp_path: Path, small: synthetic.Setup, change: dict[str, Any], said: str
+) -> None:
+    rows = synthetic.write(tmp_path, small)
+    number = next(k for k, row in enumerate(rows, start=1) if row["status"])
+    rows[number - 1].update({"error": 0.03, "band": 0.02, "status": "FAIL"} | change)
+    (tmp_path / "metrics.json").write_text(json.dumps(rows))
+    with pytest.raises(ReportError, match=f"row {number}.*{said}"):
         load(tmp_path)
 
 
-def test_a_key_of_provenance_of_another_type_is_named(tmp_path: Path, small: synthetic.Setup) -> None:
+def _set(*keys: str | int, value: object) -> Callable[[Any], object]:
+    def change(content: Any) -> None:
+        for key in keys[:-1]:
+            content = content[key]
+        content[keys[-1]] = value
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda p: p.pop("inputs"), "without inputs"),
+        (_set("inputs", value="none.xplt"), r"inputs: .* found 'none\.xplt'"),
+        (_set("inputs", 0, value="none.xplt"), r"inputs, row 1: .* found 'none\.xplt'"),
+        (_set("variants", value="local"), "variants: .* found 'local'"),
+        (_set("variants", "local", value="local"), "variants, local: .* found 'local'"),
+        (_set("variants", "local", "rom", value=[]), "variants, local, rom: "),
+        (_set("variants", "ring", value={"rom": {}, "reference": {}}), "variants are local, ring; "),
+        (_set("variants", value={}), "variants are none; comparison.nc has local"),
+        (
+            _set("variants", "local", "reference", "coverage", value=1.2),
+            "coverage: .* less than or equal to 1",
+        ),
+        (_set("variants", "local", "reference", "coverage", value="all"), "coverage: .* found 'all'"),
+        (_set("variants", "local", "rom", "cycle_change", value=math.nan), "cycle_change: .* found nan"),
+        (_set("bands", 0, value="radius"), "bands, row 1: .* found 'radius'"),
+        (_set("bands", 0, "limit", value="2 %"), "bands, row 1, limit: .* found '2 %'"),
+        (_set("bands", 0, "variants", value=["ring"]), "bands, row 1: variant 'ring' is none of local"),
+        (_set("warnings", value=[{}]), "warnings, row 1: "),
+        (_set("notes", value="none"), "notes: .* found 'none'"),
+        (_set("case", "sha256", value=64 * "0"), "case, sha256 is 0000"),
+        (_set("case", value="case.yaml"), r"case: .* found 'case\.yaml'"),
+        (_set("wall_times_s", "metrics", value="2 s"), "wall_times_s, metrics: .* found '2 s'"),
+        (_set("machine", value=3), "machine: .* found 3"),
+    ],
+)
+def test_provenance_that_does_not_fit_is_refused(
+    tmp_path: Path, small: synthetic.Setup, change: Callable[[Any], object], message: str
+) -> None:
     synthetic.write(tmp_path, small)
-    _change_json(tmp_path / "provenance.json", lambda p: p.update(inputs="none.xplt"))
-    with pytest.raises(ReportError, match=r"inputs is 'none\.xplt'; list is expected"):
+    _change_json(tmp_path / "provenance.json", change)
+    with pytest.raises(ReportError, match=message) as refused:
         load(tmp_path)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["metrics.json", "provenance.json"])
+@pytest.mark.parametrize(
+    "text", [100_000 * "[", 100_000 * '{"a":', "[" + 9999 * "9" + "]", '["\\ud800"]', "", "null", "\ufeff{}"]
+)
+def test_no_json_makes_a_traceback(tmp_path: Path, small: synthetic.Setup, name: str, text: str) -> None:
+    synthetic.write(tmp_path, small)
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(ReportError, match=name):
+        load(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "text", [synthetic.CASE_YAML.replace("\n", "\r\n"), "\ufeff" + synthetic.CASE_YAML, synthetic.CASE_YAML]
+)
+def test_line_endings_and_marks_do_not_make_another_case_file(
+    tmp_path: Path, small: synthetic.Setup, text: str
+) -> None:
+    synthetic.write(tmp_path, small)
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    _change_json(tmp_path / "provenance.json", _set("case", "sha256", value=digest))
+    assert load(tmp_path).case_yaml == synthetic.CASE_YAML
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "rom_pressure",
+        "reference_radius",
+        "reference_section_flow_rate",
+        "rom_axial_velocity",
+        "wall_stiffness",
+        "reference_profile_exponent",
+        "time",
+    ],
+)
+def test_values_that_are_no_numbers_are_refused(
+    tmp_path: Path, small: synthetic.Setup, name: str, value: float
+) -> None:
+    def spoil(dataset: xr.Dataset) -> xr.Dataset:
+        values = dataset[name].values.copy()
+        values.flat[-1] = value
+        return dataset.assign({name: (dataset[name].dims, values)})
+
+    synthetic.write(tmp_path, small)
+    _change_dataset(tmp_path, spoil)
+    if name == "reference_profile_exponent" and math.isinf(value):  # plug flow
+        assert load(tmp_path).variants == small.variants
+    else:
+        with pytest.raises(ReportError, match=f"{name} has 1 values that are not finite"):
+            load(tmp_path)
 
 
 def test_the_command_reports_bad_input_in_one_line(

@@ -70,6 +70,17 @@ def test_both_renderings_say_the_metrics(
             assert word in text
 
 
+def test_both_renderings_show_warnings_before_any_table(
+    tmp_path: Path, small: synthetic.Setup, pdf_text: Callable[[Path], str]
+) -> None:
+    warnings = ("The 2D model had not become periodic.", "The lumen is open at φ = 12°.")
+    synthetic.write(tmp_path, dataclasses.replace(small, warnings=warnings))
+    html, pdf = write_reports(tmp_path)
+    for text in (_page(html)[1], pdf_text(pdf)):
+        places = [text.index(f"Warning: {warning}") for warning in warnings]
+        assert text.index("bands hold") < places[0] < places[1] < text.index("Every declared band")
+
+
 def test_the_page_needs_nothing_but_itself(finished: tuple[Path, Rows]) -> None:
     source, _ = _page(finished[0] / "report.html")
     links = _Links()
@@ -103,6 +114,17 @@ def test_texts_are_never_markup(
     assert text.count(HOSTILE) >= 3
     assert HOSTILE.replace(" ", "") in pdf_text(pdf).replace(" ", "")
     assert pypdf.PdfReader(pdf).metadata.title == HOSTILE  # type: ignore[union-attr]
+
+
+def test_letters_that_the_pdf_lacks_are_written_as_their_code(
+    tmp_path: Path, small: synthetic.Setup, pdf_text: Callable[[Path], str]
+) -> None:
+    synthetic.write(tmp_path, dataclasses.replace(small, title="Artère 漢 🙂 β ≤ ½", notes=("bell \a",)))
+    html, pdf = write_reports(tmp_path)
+    assert "Artère 漢 🙂 β ≤ ½" in _page(html)[1]
+    said = pdf_text(pdf)
+    assert "Artère [U+6F22] [U+1F642] β ≤ ½" in said
+    assert "bell [U+0007]" in said
 
 
 def test_hostile_names_of_variants_are_shown_as_they_are(tmp_path: Path, small: synthetic.Setup) -> None:

@@ -1,0 +1,197 @@
+"""comparison.nc, opened and checked before anything is drawn."""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from reports.errors import ReportError
+
+MODELS = ("reference", "rom")
+PROFILES = ("reference_axial_velocity", "rom_axial_velocity")
+
+_CELL = ("variant", "time", "x", "phi")
+_SECTION = ("variant", "time", "x")
+_RAY = (*_CELL, "y")
+_BOTH = {
+    "pressure": _CELL,
+    "radius": _CELL,
+    "mean_velocity": _CELL,
+    "profile_exponent": _CELL,
+    "sector_flow_rate": _CELL,
+    "section_flow_rate": _SECTION,
+    "section_pressure": _SECTION,
+    "axial_velocity": _RAY,
+}
+_VARIABLES: dict[str, tuple[str, ...]] = {
+    **{f"{model}_{name}": dims for model in MODELS for name, dims in _BOTH.items()},
+    "wall_stiffness": ("variant", "x", "phi"),
+}
+_MAY_BE_INFINITE = ("reference_profile_exponent", "rom_profile_exponent")  # plug flow
+_AXES = ("time", "x", "phi", "y")
+_TEXTS = ("case", "title", "baseline", "compare_time_names", "case_yaml")
+_NUMBERS = ("period_s", "compare_i", "compare_j", "compare_times_s")
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[xr.Dataset]:
+    """Open comparison.nc and check all that the report reads of it.
+
+    Raises
+    ------
+    ReportError
+        If it is no NetCDF-4 file, lacks something, or holds other dimensions, types or values than a
+        finished comparison does; also if its data cannot be read later, inside the block.
+    """
+    try:
+        with xr.open_dataset(path, engine="netcdf4", decode_times=False) as dataset:
+            _check_names(path, dataset)
+            _check_axes(path, dataset)
+            _check_values(path, dataset)
+            yield dataset
+    except (OSError, RuntimeError, TypeError, ValueError) as error:
+        reason = str(error).partition("\n")[0]
+        raise ReportError(f"{path}: cannot be read as NetCDF-4: {reason}") from error
+
+
+def _check_names(path: Path, dataset: xr.Dataset) -> None:
+    dimensions = ("variant", *_AXES)
+    for what, missing in (
+        ("dimension", [name for name in dimensions if name not in dataset.sizes]),
+        ("coordinate", [name for name in dimensions if name not in dataset.coords]),
+        ("variable", [name for name in _VARIABLES if name not in dataset.data_vars]),
+        ("attribute", [name for name in (*_TEXTS, *_NUMBERS) if name not in dataset.attrs]),
+    ):
+        if missing:
+            raise ReportError(f"{path}: without {what} {', '.join(missing)}")
+    for name, dims in _VARIABLES.items():
+        if dataset[name].dims != dims:
+            raise ReportError(f"{path}: {name} has dimensions {dataset[name].dims}; {dims} are expected")
+
+
+def _check_axes(path: Path, dataset: xr.Dataset) -> None:
+    empty = [name for name in ("variant", *_AXES) if dataset.sizes[name] == 0]
+    if empty:
+        raise ReportError(f"{path}: nothing along {', '.join(empty)}")
+    names = [str(name) for name in dataset["variant"].values]
+    if len(set(names)) < len(names):
+        raise ReportError(f"{path}: variants {', '.join(names)}: each may occur once")
+    for axis in _AXES:
+        values = dataset[axis]
+        _check_finite(path, values)
+        if np.any(np.diff(values.values) <= 0):
+            raise ReportError(f"{path}: {axis} does not increase")
+
+
+def _check_values(path: Path, dataset: xr.Dataset) -> None:
+    for name in _VARIABLES:
+        values = dataset[name]
+        for part in values if "y" in values.dims else (values,):  # large ones need not be held whole
+            _check_finite(path, part, infinite=name in _MAY_BE_INFINITE)
+
+
+def _check_finite(path: Path, values: xr.DataArray, infinite: bool = False) -> None:
+    if values.dtype.kind not in "fiu":
+        raise ReportError(f"{path}: {values.name} is of type {values.dtype}; numbers are expected")
+    wrong = np.isnan(values.values) if infinite else ~np.isfinite(values.values)
+    if wrong.any():
+        raise ReportError(f"{path}: {values.name} has {int(wrong.sum())} values that are not finite numbers")
+
+
+@dataclass(frozen=True)
+class Attributes:
+    """Attributes of comparison.nc, of the types and within the ranges that they must have.
+
+    Attributes
+    ----------
+    case, title, baseline, case_yaml : str
+        As stored.
+    i, j : tuple of int
+        Cells to show, counted from 1.
+    times : tuple of (str, float)
+        Named instants and their times into the cycle (s).
+    """
+
+    case: str
+    title: str
+    baseline: str
+    case_yaml: str
+    i: tuple[int, ...]
+    j: tuple[int, ...]
+    times: tuple[tuple[str, float], ...]
+
+
+def read_attributes(path: Path, dataset: xr.Dataset) -> Attributes:
+    """Read the attributes of an opened comparison.nc.
+
+    Raises
+    ------
+    ReportError
+        If one is of another type or range, or the baseline is none of the variants.
+    """
+    texts = {name: _text(path, name, dataset.attrs[name]) for name in _TEXTS}
+    variants = [str(name) for name in dataset["variant"].values]
+    if texts["baseline"] and texts["baseline"] not in variants:
+        raise ReportError(
+            f"{path}: baseline {texts['baseline']!r} is none of the variants {', '.join(variants)}"
+        )
+    return Attributes(
+        case=texts["case"],
+        title=texts["title"],
+        baseline=texts["baseline"],
+        case_yaml=texts["case_yaml"],
+        i=_cells(path, "compare_i", dataset.attrs["compare_i"], dataset.sizes["x"]),
+        j=_cells(path, "compare_j", dataset.attrs["compare_j"], dataset.sizes["phi"]),
+        times=_instants(path, dataset, texts["compare_time_names"]),
+    )
+
+
+def _text(path: Path, name: str, value: object) -> str:
+    if not isinstance(value, str):
+        raise ReportError(f"{path}: {name} is {value!r}; text is expected")
+    return value
+
+
+def _numbers(path: Path, name: str, value: object, kinds: str) -> NDArray[np.float64]:
+    numbers = np.atleast_1d(np.asarray(value))
+    if numbers.ndim != 1 or numbers.dtype.kind not in kinds or not np.all(np.isfinite(numbers)):
+        expected = "finite numbers are" if "f" in kinds else "whole numbers are"
+        raise ReportError(f"{path}: {name} is {value!r}; {expected} expected")
+    return numbers.astype(np.float64)
+
+
+def _cells(path: Path, name: str, value: object, size: int) -> tuple[int, ...]:
+    cells = tuple(int(k) for k in _numbers(path, name, value, "iu"))
+    outside = [k for k in cells if not 1 <= k <= size]
+    if outside or not cells:
+        raise ReportError(f"{path}: {name} is {list(cells)}; one or more of 1 … {size} are allowed")
+    return cells
+
+
+def _instants(path: Path, dataset: xr.Dataset, text: str) -> tuple[tuple[str, float], ...]:
+    """Names and times to show; each time must be one of the states'."""
+    times = _numbers(path, "compare_times_s", dataset.attrs["compare_times_s"], "fiu")
+    period = _numbers(path, "period_s", dataset.attrs["period_s"], "fiu")
+    if period.size != 1 or period[0] <= 0:
+        raise ReportError(
+            f"{path}: period_s is {dataset.attrs['period_s']!r}; one positive number is expected"
+        )
+    for name, t in zip(_time_names(path, text, times.size), times, strict=True):
+        if np.abs(dataset["time"].values - t).min() > 1e-6 * period[0]:
+            raise ReportError(f"{path}: no state at {t:g} s ({name}), which compare_times_s names")
+    return tuple(zip(_time_names(path, text, times.size), times.tolist(), strict=True))
+
+
+def _time_names(path: Path, text: str, count: int) -> list[str]:
+    try:
+        names = json.loads(text)
+    except (RecursionError, ValueError) as error:
+        raise ReportError(f"{path}: compare_time_names is {text[:60]!r}; a JSON list is expected") from error
+    if not isinstance(names, list) or len(names) != count or not all(isinstance(n, str) for n in names):
+        raise ReportError(f"{path}: {count} compare_times_s, but compare_time_names is {text[:60]}")
+    return names

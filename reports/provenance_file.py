@@ -1,0 +1,116 @@
+"""What provenance.json holds."""
+
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, TypeAdapter
+
+from reports.strict_json import read_json
+
+Checksum = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(strict=True, frozen=True, allow_inf_nan=False)
+
+
+class CaseFile(_Record):
+    """The case file, by checksum."""
+
+    path: str
+    sha256: Checksum
+
+
+class InputFile(CaseFile):
+    """A file that was read."""
+
+    bytes: int
+
+
+class _Settings(_Record):
+    """Named facts of a run; those that the report uses itself are declared below, all are listed."""
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, JsonValue]
+
+    def facts(self) -> dict[str, JsonValue]:
+        """All facts that the file holds, in its order where the report has no use of its own for them."""
+        return {**self.__pydantic_extra__, **self.model_dump(include=self.model_fields_set)}
+
+
+class ReducedModelSettings(_Settings):
+    """How the 2D model ran.
+
+    Attributes
+    ----------
+    cycles : int, optional
+        Cycles of the inlet that it ran.
+    cycle_change : float, optional
+        Largest relative change of its pressure and flow rate over its last cycle.
+    """
+
+    cycles: int | None = None
+    cycle_change: Annotated[float, Field(ge=0)] | None = None
+
+
+class ReferenceSettings(_Settings):
+    """What the 3D reference is.
+
+    Attributes
+    ----------
+    coverage : float, optional
+        Share of the cycle that its states cover, 0 … 1.
+    """
+
+    coverage: Share | None = None
+
+
+class VariantRecord(_Record):
+    """Both models of one variant."""
+
+    rom: ReducedModelSettings
+    reference: ReferenceSettings
+
+
+class DeclaredBand(_Record):
+    """A limit with its reason and the variants it is for; without `variants`, all."""
+
+    quantity: str
+    statistic: str
+    limit: Annotated[float, Field(ge=0)]
+    reason: str
+    variants: tuple[str, ...] | None = None
+
+
+class Provenance(_Record):
+    """What the comparison was made from, and how."""
+
+    created: str
+    command: str
+    git_commit: str | None
+    package_version: str | None
+    python: str
+    versions: dict[str, str]
+    machine: dict[str, JsonValue]
+    case: CaseFile
+    inputs: tuple[InputFile, ...]
+    wall_times_s: dict[str, float]
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
+    variants: dict[str, VariantRecord]
+    bands: tuple[DeclaredBand, ...]
+
+
+_SCHEMA = TypeAdapter(Provenance)
+
+
+def read_provenance(path: Path) -> Provenance:
+    """Read provenance.json.
+
+    Raises
+    ------
+    ReportError
+        If a key is absent or its value is of another type than declared above.
+    """
+    return read_json(path, _SCHEMA)
