@@ -11,7 +11,7 @@ from cases.errors import CaseFileError, Problem
 from cases.problems import problems_of
 from cases.schema import Case
 from cases.section import Section
-from cases.values import NAME_PATTERN, Context, Name, Words
+from cases.values import NAME_CHARACTERS, NAME_PATTERN, Context, Name, Words
 from cases.variants import merge_variant
 from cases.wording import choices, shown, unknown_key
 from cases.yaml_nodes import Node, parse_yaml, read_text
@@ -31,7 +31,8 @@ class CaseFile:
     text : str
         Its text.
     name, title : str
-        Its name (letters, digits, - and _) and its title; the title is the name where none is stated.
+        Its name (up to 64 letters, digits, - and _) and its title; the title is the name where none is
+        stated.
     variants : dict of str to Case
         The cases by name, in the file's order; one named "base" where the file states no variants.
     """
@@ -82,6 +83,7 @@ def load_case_file(path: str | Path) -> CaseFile:
     heading = _check(_Heading, _part(root, ("name", "title")), None, problems)
     overrides = _overrides(root, problems)
     cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides)), problems)
+    problems += _tables_apart(cases, overrides)
     if problems or heading is None:
         raise CaseFileError.of_problems(path, problems)
     return CaseFile(path, text, heading.name, heading.title or heading.name, cases)
@@ -105,6 +107,23 @@ def _cases(
             found.setdefault(problem, []).append(name)
     problems += [_of_variants(problem, names, len(overrides)) for problem, names in found.items()]
     return cases
+
+
+def _tables_apart(cases: dict[str, Case], overrides: dict[str, Node]) -> list[Problem]:
+    """Refuse overrides of the cells and times that one report tabulates for all variants."""
+    problems = []
+    for name, case in cases.items():
+        compare = overrides[name].section.get("compare")
+        for key in ("cells", "times"):
+            stated = None if compare is None else compare.section.get(key)
+            if stated is None:
+                continue
+            here = getattr(case.compare, key)
+            apart = [other for other, each in cases.items() if getattr(each.compare, key) != here]
+            if apart:
+                message = f"other {key} than variant {apart[0]}; allowed: the same {key} in all variants"
+                problems.append(Problem(stated.line, stated.key, message))
+    return problems
 
 
 def _of_variants(problem: Problem, names: list[str], count: int) -> Problem:
@@ -155,7 +174,7 @@ def _overrides(root: Node, problems: list[Problem]) -> dict[str, Node]:
     for name, node in variants.value.items():
         overrides[name] = Node({}, node.line, node.key) if node.value is None else node
         if re.fullmatch(NAME_PATTERN, name) is None:
-            message = f"variant name {shown(name)}; allowed: letters, digits, - and _"
+            message = f"variant name {shown(name)}; allowed: {NAME_CHARACTERS}"
             problems.append(Problem(node.line, variants.key, message))
         if not isinstance(overrides[name].value, dict):
             message = f"{shown(node.plain())}; allowed: a section with the keys {choices(Case.model_fields)}"

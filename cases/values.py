@@ -35,7 +35,7 @@ from cases.ranges import (
 from cases.units import DIMENSIONS, parse_quantity, parse_ratio
 from cases.wall_curve_file import WallCurve, read_wall_curve
 from cases.waveform_file import Waveform, read_waveform
-from cases.wording import but_allowed, choices, not_one_of, shown
+from cases.wording import but_allowed, choices, not_one_of, shown, shown_path
 
 T = TypeVar("T")
 
@@ -171,9 +171,8 @@ def _file(value: object, context: Context | None) -> Path:
     folder = Path.cwd() if context is None else context.folder
     found = find_file(value, folder)
     if found is None:
-        raise RefusedValueError(
-            f"{shown(value)}: no such file; looked for in {folder} and the folders above it"
-        )
+        searched = "" if Path(value).is_absolute() else f"; looked for in {folder} and the folders above it"
+        raise RefusedValueError(f"{shown_path(value)}: no such file{searched}")
     return found
 
 
@@ -183,7 +182,7 @@ def _waveform_of(quantity: Column) -> ValueKind:
     def parse(value: object, context: Context | None) -> Waveform:
         path = _file(value, context)
         try:
-            return read_waveform(path, name=str(value), quantity=quantity)
+            return read_waveform(path, name=shown_path(str(value)), quantity=quantity)
         except ColumnFileError as error:
             raise RefusedValueError(str(error)) from error
 
@@ -193,7 +192,7 @@ def _waveform_of(quantity: Column) -> ValueKind:
 def _wall_curve(value: object, context: Context | None) -> WallCurve:
     path = _file(value, context)
     try:
-        return read_wall_curve(path, name=str(value))
+        return read_wall_curve(path, name=shown_path(str(value)))
     except ColumnFileError as error:
         raise RefusedValueError(str(error)) from error
 
@@ -253,8 +252,9 @@ Exponent = Annotated[float, number("a number from 0.01 to 1000", lambda value: 0
 Tolerance = Annotated[float, ValueKind(_tolerance, TOLERANCE, {"type": ["string", "number"]})]
 Switch = Annotated[bool, ValueKind(_switch, SWITCH, {"type": "boolean"})]
 Words = Annotated[str, text("a text", r"(?s).*\S.*")]
-NAME_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_-]*"
-Name = Annotated[str, text("letters, digits, - and _, e.g. axisymmetric", NAME_PATTERN)]
+NAME_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}"
+NAME_CHARACTERS = "up to 64 letters, digits, - and _"
+Name = Annotated[str, text(f"{NAME_CHARACTERS}, e.g. axisymmetric", NAME_PATTERN)]
 ExistingFile = Annotated[Path, ValueKind(_file, "the path of a file", PATH_SCHEMA)]
 _SAMPLES = PlainSerializer(_samples, when_used="json")
 VelocityWaveform = Annotated[Waveform, _waveform_of(VELOCITY), _SAMPLES]

@@ -4,6 +4,7 @@ import difflib
 from collections.abc import Iterable
 
 LONGEST_SHOWN = 60
+LONGEST_FILE_NAME = 255  # that file systems take
 
 
 def shown(value: object) -> str:
@@ -22,6 +23,18 @@ def shown(value: object) -> str:
         case _:
             text = " ".join(str(value).split())
             return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 1] + "…"
+
+
+def shown_path(path: str) -> str:
+    """Show the path of a file: its name in full, its folder cut in the middle where it is long."""
+    text = " ".join(path.split())
+    folder, separator, name = text.rpartition("/")
+    if len(text) <= LONGEST_SHOWN or len(name) > LONGEST_FILE_NAME:
+        return shown(path)
+    kept = max(LONGEST_SHOWN - len(name), LONGEST_SHOWN // 3) // 2
+    if len(folder) > 2 * kept:
+        folder = f"{folder[:kept]}…{folder[-kept:]}"
+    return f"{folder}{separator}{name}"
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -197,6 +197,23 @@ def test_files_are_found_in_the_nearest_folder_above(folder, monkeypatch):
     assert case.inlet.waveform.path == (folder.path / "data/inlet.csv").resolve()
 
 
+@pytest.mark.parametrize(
+    ("path", "shown"),
+    [
+        ("runs/2024/absent.xplt", "runs/2024/absent.xplt"),
+        (f"/a{'b' * 60}/c{'d' * 60}/absent.xplt", f"/a{'b' * 22}…{'d' * 24}/absent.xplt"),
+        (f"runs/{'n' * 80}.xplt", f"runs/{'n' * 80}.xplt"),
+        (f"{'m' * 30}/{'n' * 80}.xplt", f"{'m' * 10}…{'m' * 10}/{'n' * 80}.xplt"),
+        (f"runs/{'n' * 300}", f"runs/{'n' * 54}…"),
+    ],
+)
+def test_a_missing_file_is_named_in_full(folder, path, shown):
+    searched = "" if path[0] == "/" else f"; looked for in {folder.path} and the folders above it"
+    assert folder.problems(("data/run.xplt", path)) == [
+        f"x.yaml, line 19: reference.plot_file: {shown}: no such file{searched}"
+    ]
+
+
 def test_an_absolute_path_is_taken_as_it_is(folder, tmp_path_factory):
     file = tmp_path_factory.mktemp("elsewhere") / "run.xplt"
     file.touch()

@@ -73,6 +73,25 @@ def test_values_keep_their_lines():
     assert result.find(("wall", "missing")).line == 4
 
 
+def test_bands_may_differ_and_equal_tables_may_be_stated(folder):
+    cells, times = "{i: [1, 39, 61, 82, 120]}", "[systole, second trough, end diastole]"
+    same = f"compare: {{bands: [], cells: {cells}, times: {times}}}"
+    file = folder.load(("title: A patch", same))
+    none, local = file.variants["none"].compare, file.variants["local"].compare
+    assert (len(none.bands), len(local.bands)) == (1, 0)
+    assert (none.cells, none.times) == (local.cells, local.times)
+
+
+def test_default_tables_may_differ_with_the_grid_and_the_inlet(folder):
+    override = (
+        "title: A patch\n    solver: {n_x: 60}\n    inlet: {kind: pressure, value: 1 kPa, period: 0.8 s}"
+    )
+    none, local = (case.compare for case in folder.load(("title: A patch", override)).variants.values())
+    assert none.cells.i == (1, 39, 61, 82, 120)
+    assert local.cells.i == (1, 20, 31, 41, 60)
+    assert local.times == ("end diastole",)
+
+
 def test_variants_override_the_base(folder):
     override = "title: A patch\n    solver: {n_x: 60}\n    inlet: {waveform: null, value: 10 cm/s}"
     file = folder.load(("title: A patch", override))
