@@ -88,7 +88,7 @@ def _coefficients(p: Parameters, s: Stepping, ws: Workspace, flow: Array) -> tup
             fixed_source(alpha, damping, inverse_area, p.fixed_exponent, scale)
             continue
         d = 2.0 * mean(velocity)
-        if all_admissible(velocity, d):
+        if abs(d) > REST_VELOCITY and all_admissible(velocity, d):
             wrap(area)
             closure_source(alpha, damping, area, inverse_area, velocity, d, inverse_exponent, scale, p.dphi)
         elif at_rest(velocity):
