@@ -7,7 +7,7 @@ from numba import njit
 from solver.schemes import vectorisation  # noqa: F401  (before the first kernel is compiled)
 from solver.schemes.godunov_layout import Array, Fields, Parameters
 
-SERIES_LIMIT = 1e-3  # below it five terms of e^z are exact to round-off
+SERIES_LIMIT = 0.05  # below it the series of e^z up to z⁸ is exact to round-off
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -42,6 +42,13 @@ def exchange_exponent(
     return (1.0 + 2.0 * inverse_gamma) * inverse_A * bracket
 
 
+@njit(cache=True, nogil=True, inline="always")
+def growth(z: float) -> float:
+    """Return e^z for |z| below the series' limit."""
+    tail = 1 / 24 + z * (1 / 120 + z * (1 / 720 + z * (1 / 5040 + z * (1 / 40320))))
+    return 1 + z * (1 + z * (1 / 2 + z * (1 / 6 + z * tail)))
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def exchange(fields: Fields, parameters: Parameters, rate: Array, first: int, last: int) -> None:
     """Multiply Q by e^{hΔt} at the flat places ``first`` to ``last``; ``rate`` is scratch for hΔt."""
@@ -70,7 +77,7 @@ def exchange(fields: Fields, parameters: Parameters, rate: Array, first: int, la
         large += not abs(z[k]) < SERIES_LIMIT
     if large:
         for k in range(n):
-            Q[k] *= math.exp(z[k])
+            Q[k] *= growth(z[k]) if abs(z[k]) < SERIES_LIMIT else math.exp(z[k])
     else:
         for k in range(n):
-            Q[k] += Q[k] * (z[k] * (1 + z[k] * (1 / 2 + z[k] * (1 / 6 + z[k] * (1 / 24 + z[k] / 120)))))
+            Q[k] *= growth(z[k])
