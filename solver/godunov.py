@@ -195,7 +195,8 @@ def march_to_steady(
         while stepper.steps < ramp_steps:
             stepper.advance(min(_CHUNK, ramp_steps - stepper.steps))
         while stepper.time < longest:
-            if stepper.advance(_CHUNK, criteria) and (also is None or also(stepper.state)):
+            left = np.ceil((longest - stepper.time) / setup.time_step)
+            if stepper.advance(int(min(_CHUNK, left)), criteria) and (also is None or also(stepper.state)):
                 return SteadyState(stepper.state, stepper.steps, stepper.courant)
         raise NotConverged(stepper.time, 0, 0, "the criteria for a steady state do not hold")
 
