@@ -121,9 +121,9 @@ def _draw(results: Results, folder: Path) -> list[Path]:
                     radius = numbers(results[entry], f"radius_mm {name}")
                     x = (np.arange(len(radius)) + 0.5) * LENGTH / len(radius) * 1e3
                     axes.plot(x, np.array(radius, dtype=float), linewidth=0.8, label=f"n_x = {len(radius)}")
-            axes.set(ylabel="R, mm", title=f"{label}, t = {TIMES[name] * 1e3:g} ms")
-        axes.set_xlabel("x, mm")
-        axes.legend(fontsize="x-small", ncols=2)
+            axes.set(xlabel="x, mm", ylabel="R, mm", title=f"{label}, t = {TIMES[name] * 1e3:g} ms")
+            if axes.lines:
+                axes.legend(fontsize="x-small", ncols=2)
         paths.append(folder / f"figure_{name.replace('.', '_')}.png")
         figure.savefig(paths[-1], dpi=150)
     return paths

@@ -58,12 +58,18 @@ class Store:
         return self._folder / f"{name.replace(' ', '_').replace('=', '_')}.json"
 
     def get(self, name: str) -> tuple[Result, float] | None:
-        """Return a kept result and the CPU seconds it took; None without one of the present sources."""
+        """Return a kept result and the CPU seconds it took.
+
+        None where there is none of the present sources, or no whole file.
+        """
         path = self._path(name)
         if not path.exists():
             return None
-        kept = json.loads(path.read_text(encoding="utf-8"))
-        if kept["name"] != name or kept["sources"] != self._digest:
+        try:
+            kept = json.loads(path.read_text(encoding="utf-8"))
+        except ValueError:
+            return None
+        if not isinstance(kept, dict) or (kept.get("name"), kept.get("sources")) != (name, self._digest):
             return None
         return kept["result"], kept["cpu_s"]
 
