@@ -68,23 +68,25 @@ def steady_state(model: Model, inlet_value: float, start: State | None = None) -
             time_step = longest = 0.5 * time_step
             continue
         before, state = state, stepper.state()
-        if _settled(model, before, state):
+        if _settled(model, before, state, time_step):
             state.time = 0.0
             return state
         time_step = min(GROWTH * time_step, longest)
     raise NotConverged(stepper.time, 0, 0, f"no steady state within {MOST_STEPS} steps of the march to it")
 
 
-def _settled(model: Model, before: State, after: State) -> bool:
-    """Whether a step changed nothing beyond round-off."""
+def _settled(model: Model, before: State, after: State, time_step: float) -> bool:
+    """Whether a step changed nothing beyond round-off; Δt/Δx ΔQ adds that of Q to the area."""
     rest = REST_VELOCITY * 1e-3 * model.radius**2
-    area_change = np.max(np.abs(after.area - before.area)) / np.max(before.area)
+    fastest, widest = float(np.max(np.abs(after.flow))), float(np.max(after.area))
+    round_off = 8 * np.finfo(float).eps * time_step / model.grid.dx * fastest
+    area_change = np.max(np.abs(after.area - before.area))
     flow_change = np.max(np.abs(after.flow - before.flow))
     old, new = (model.pressure(s.area) if s.pressure is None else s.pressure for s in (before, after))
     load_change = np.max(np.abs(new - old))  # in a stiff wall the area hardly shows it
     return bool(
-        area_change < 1e-13
-        and flow_change <= 1e-12 * np.max(np.abs(after.flow)) + rest
+        area_change < 1e-13 * widest + round_off
+        and flow_change <= 1e-12 * fastest + rest
         and load_change <= 1e-11 * np.max(np.abs(new)) + 1e-9
     )
 
