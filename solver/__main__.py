@@ -9,7 +9,7 @@ from cases.errors import CaseError
 from solver.errors import SolverError
 from solver.files import check_folder
 from solver.progress import progress_bar
-from solver.run import pieces_folder, run_identity, run_to_file
+from solver.run import pieces_folder, run_identity, run_to_file, run_whole
 
 WRONG_INPUT, INTERRUPTED = 2, 130
 
@@ -51,9 +51,11 @@ def main() -> int:
         stated = {"case": file.name, "title": file.title, "variant": variant, "case_yaml": file.text}
         identity = run_identity(file.text, variant)
         with progress_bar(f"{file.name} {variant}") as progress:
-            done = run_to_file(
-                file.variants[variant], arguments.output, identity, stated, arguments.resume, progress
-            )
+            case = file.variants[variant]
+            if case.solver.scheme == "godunov":
+                done = run_whole(case, arguments.output, stated, arguments.resume, progress)
+            else:
+                done = run_to_file(case, arguments.output, identity, stated, arguments.resume, progress)
     except (CaseError, SolverError) as error:
         print(error, file=sys.stderr)
         return WRONG_INPUT

@@ -1,11 +1,14 @@
 """A finished run as an xarray dataset with CF-style names and units."""
 
+from typing import NamedTuple
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from cases.fields import FIELDS
 from solver.errors import NoAdmissibleProfile
+from solver.model import Model
 from solver.profiles import continuity_exponent
 from solver.schemes.layout import REST_VELOCITY
 from solver.simulate import Trajectory
@@ -71,32 +74,47 @@ def to_dataset(trajectory: Trajectory) -> xr.Dataset:
     NoAdmissibleProfile
         Where a cell has no exponent γ > 0.
     """
-    model, grid = trajectory.model, trajectory.model.grid
-    pressure = trajectory.pressure
     flow = cell_flow(trajectory.flow)
-    velocity = flow / trajectory.area
-    sector = 0.5 * grid.dphi * flow
-    exponent = profile_exponent(trajectory, velocity)
-    fields = {
-        "pressure": pressure,
-        "radius": np.sqrt(trajectory.area),
-        "mean_velocity": velocity,
-        "profile_exponent": exponent,
-        "sector_flow_rate": sector,
-        "section_flow_rate": sector.sum(axis=-1),
-        "section_pressure": section_mean(pressure, trajectory.area),
-        "wall_stiffness": model.stiffness,
-        "mass_defect": trajectory.mass_defect,
-    }
-    dataset = coordinates(trajectory.times, grid.x, grid.phi)
-    dataset = dataset.assign({name: described(name, values) for name, values in fields.items()})
-    return dataset.assign_attrs(
-        Conventions=CONVENTIONS,
+    exponent = profile_exponent(trajectory, flow / trajectory.area)
+    cells = CellHistory(
+        trajectory.times, trajectory.area, flow, trajectory.pressure, exponent, trajectory.mass_defect
+    )
+    return cell_dataset(trajectory.model, cells).assign_attrs(
         scheme="semi_implicit",
         time_step_s=trajectory.longest_step,
         steps=trajectory.steps,
         iteration_sweeps=trajectory.sweeps,
     )
+
+
+class CellHistory(NamedTuple):
+    """States at cell centres: times (n,), s; A, m², Q, m³/s, P, Pa, γ (n, n_x, n_phi); mass defect (n,)."""
+
+    times: NDArray[np.float64]
+    area: NDArray[np.float64]
+    flow: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    exponent: NDArray[np.float64]
+    mass_defect: NDArray[np.float64]
+
+
+def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
+    """Fields of the table of fields from states at cell centres; see :func:`to_dataset`."""
+    sector = 0.5 * model.grid.dphi * cells.flow
+    fields = {
+        "pressure": cells.pressure,
+        "radius": np.sqrt(cells.area),
+        "mean_velocity": cells.flow / cells.area,
+        "profile_exponent": cells.exponent,
+        "sector_flow_rate": sector,
+        "section_flow_rate": sector.sum(axis=-1),
+        "section_pressure": section_mean(cells.pressure, cells.area),
+        "wall_stiffness": model.stiffness,
+        "mass_defect": cells.mass_defect,
+    }
+    dataset = coordinates(cells.times, model.grid.x, model.grid.phi)
+    dataset = dataset.assign({name: described(name, values) for name, values in fields.items()})
+    return dataset.assign_attrs(Conventions=CONVENTIONS)
 
 
 def section_mean(values: NDArray[np.float64], area: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -17,6 +17,7 @@ import netCDF4
 import numpy as np
 
 from cases.schema import Case
+from solver.case_run import run_case
 from solver.errors import SolverError
 from solver.files import write_netcdf
 from solver.from_case import default_output_times, error_tolerance, initial_state, model_of
@@ -101,6 +102,20 @@ def run_to_file(
     attributes = _join(model, sorted(folder.glob("*.npz")), result, attributes)
     shutil.rmtree(folder)
     return attributes
+
+
+def run_whole(
+    case: Case, result: Path, attributes: dict[str, Any], resume: bool, progress: Progress
+) -> dict[str, Any]:
+    """Run a case that leaves no pieces (scheme godunov) and write its result file.
+
+    Parameters, return value and errors are those of :func:`run_to_file`.
+    """
+    if resume:
+        raise SolverError(f"scheme {case.solver.scheme} keeps no pieces to resume from; run without --resume")
+    dataset = run_case(case, default_output_times(case), progress).assign_attrs(attributes)
+    write_netcdf(dataset, result)
+    return dict(dataset.attrs)
 
 
 def _prepare(folder: Path, identity: str, resume: bool) -> Path:

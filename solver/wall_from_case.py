@@ -10,6 +10,7 @@ from cases.calcification import AxialTransition, LocalCalcification, NoCalcifica
 from cases.schema import Case
 from cases.wall import HomogeneousWall, LayeredWall, TableWall
 from solver.calcification import Patch, calcified_stiffness, scaled_distance
+from solver.errors import ModelError
 from solver.finite_strain import inflation_curve
 from solver.grid import Grid
 from solver.layered_wall import Layer, layered_wall_stiffness
@@ -45,19 +46,29 @@ def patch_of(case: Case) -> Patch | None:
     )
 
 
-def _over_patch(case: Case, grid: Grid, healthy: float, calcified: float) -> Floats:
-    """Value that is ``calcified`` in the patch, ``healthy`` far from it, with the transition between."""
-    patch = patch_of(case)
-    if patch is None:
-        return np.full((grid.n_x, grid.n_phi), healthy)
-    return calcified_stiffness(healthy, calcified, scaled_distance(grid, patch))
-
-
 def _modulus(case: Case, grid: Grid, healthy: float) -> Floats:
     """Young's modulus of a calcifying material in every cell, Pa."""
-    stated = case.calcification
-    calcified = healthy if isinstance(stated, NoCalcification) else stated.youngs_modulus
-    return _over_patch(case, grid, healthy, calcified)
+    stated, patch = case.calcification, patch_of(case)
+    if isinstance(stated, NoCalcification) or patch is None:
+        return np.full((grid.n_x, grid.n_phi), healthy)
+    return calcified_stiffness(healthy, stated.youngs_modulus, scaled_distance(grid, patch))
+
+
+def healthy_and_calcified(case: Case) -> tuple[float, float]:
+    """β of the healthy and of the calcified wall of law thin or thick, Pa m; equal without calcification.
+
+    Raises
+    ------
+    ModelError
+        For another law.
+    """
+    wall, geometry, stated = case.wall, case.geometry, case.calcification
+    if not isinstance(wall, HomogeneousWall) or wall.law not in WALL_LAWS:
+        raise ModelError(f"wall law {wall.law!r}; allowed here: {', '.join(WALL_LAWS)}")
+    calcified = wall.youngs_modulus if isinstance(stated, NoCalcification) else stated.youngs_modulus
+    moduli = np.array([wall.youngs_modulus, calcified])
+    betas = wall_stiffness(wall.law, moduli, geometry.radius, geometry.wall_thickness, wall.poisson_ratio)
+    return float(betas[0]), float(betas[1])
 
 
 def wall_on_grid(case: Case, grid: Grid) -> WallOnGrid:

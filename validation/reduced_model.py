@@ -7,10 +7,8 @@ import numpy as np
 import xarray as xr
 
 from cases.schema import Case
-from solver.from_case import error_tolerance, initial_state, model_of
+from solver.case_run import run_case
 from solver.profiles import axis_ratio, shape
-from solver.result import to_dataset
-from solver.simulate import simulate
 from validation.alignment import Alignment
 from validation.derived import as_dataset
 from validation.rays import Rays
@@ -58,11 +56,7 @@ def run_reduced_model(
     begin, end = (cycles - 1) * period, cycles * period
     milestones = np.linspace(0.0, begin, 10 * (cycles - 1) + 1)
     times = np.unique(np.concatenate([milestones, alignment.rom_times, [end]]))
-    model = model_of(case)
-    trajectory = simulate(
-        model, times, case.solver.time_step, initial_state(case, model), progress, error_tolerance(case)
-    )
-    dataset = to_dataset(trajectory)
+    dataset = run_case(case, times, progress)
     kept = dataset.sel(time=alignment.rom_times)
     values = {name: kept[name].to_numpy() for name in COMPARED}
     u, gamma = values["mean_velocity"], values["profile_exponent"]

@@ -4,7 +4,6 @@ import math
 
 from numba import njit
 
-from solver.schemes import vectorisation  # noqa: F401  (before the first kernel is compiled)
 from solver.schemes.godunov_layout import Array, Fields, Parameters
 
 SERIES_LIMIT = 0.05  # below it the series of e^z up to z⁸ is exact to round-off

@@ -8,7 +8,6 @@ import math
 
 from numba import njit
 
-from solver.schemes import vectorisation  # noqa: F401  (before the first kernel is compiled)
 from solver.schemes.godunov_layout import (
     LAX_WENDROFF,
     MINMOD,

@@ -123,4 +123,4 @@ def workspace(n_x: int, n_phi: int) -> Workspace:
     """Allocate the scratch of a run."""
     cells, faces, pair = (n_x, n_phi), (n_x + 1, n_phi), (2, n_phi)
     shapes = [cells] * 7 + [faces] * 5 + [cells] * 2 + [faces] * 2 + [pair] * 5 + [(2, n_phi + 2), pair]
-    return Workspace(*map(np.zeros, shapes), np.zeros(2))
+    return Workspace(*(np.zeros(shape) for shape in [*shapes, (2,)]))

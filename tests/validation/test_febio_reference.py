@@ -92,7 +92,7 @@ def test_domains_may_be_named(read):
         ({"wall": ["Blood"]}, r"named both lumen and wall: Blood"),
         ({"axis": "x"}, r"the lumen (has no plane inlet|runs from)"),
         ({"origin": ["0 m", "0 m", "5 mm"]}, r"starts at reference\.origin and is 0\.015 m long"),
-        ({"origin": ["5 mm", "0 m", "0 m"]}, r"the unloaded lumen.s radius is 0\.00531\d+ m on average about reference\.origin"),
+        ({"origin": ["5 mm", "0 m", "0 m"]}, r"the unloaded lumen.s radius is 0\.00531"),
     ],
 )
 def test_a_reference_that_does_not_fit(read, reference, said):
