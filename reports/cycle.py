@@ -11,7 +11,7 @@ from reports.blocks import Block, Figure, Paragraph, Section, Subsection
 from reports.cells import chunks
 from reports.figures import Curves, PanelRow, small_multiples
 from reports.load import Comparison
-from reports.numbers import DIFFERENCE_UNITS, fixed, listed, signed, with_unit
+from reports.numbers import DIFFERENCE_UNITS, SPACE, fixed, listed, signed, with_unit
 from reports.tabular import comma_separated
 from reports.words import column_heading, row_heading, spot
 
@@ -121,13 +121,15 @@ def _spread(comparison: Comparison, variant: str) -> str:
     )
     return (
         f"The wall of variant {variant} is the same all around, so one row stands for all: j = {j}. At the "
-        f"shown columns the radius varies around the artery by at most {_micrometres(three)} in 3D and "
+        f"shown columns the radius varies around the artery by {_micrometres(three)} in 3D and "
         f"{_micrometres(two)} in 2D."
     )
 
 
 def _micrometres(length: float) -> str:
-    return with_unit(fixed(1e6 * length, 2), "μm")
+    return (
+        f"at most {with_unit(fixed(1e6 * length, 2), 'μm')}" if length >= 5e-9 else f"less than 0.01{SPACE}μm"
+    )
 
 
 def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:

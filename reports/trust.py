@@ -50,34 +50,46 @@ def _largest_of_3d(quantity: str) -> Check:
     return check
 
 
-_CHECKS: tuple[tuple[str, Check], ...] = (
-    ("flow by rays against planes", planes),
-    ("inflow against prescribed", inflow),
-    ("mass defect", _largest_of_3d("mass_defect")),
-    ("backflow", _largest_of_3d("backflow_fraction")),
-    ("cycle covered", coverage),
-    ("change over the last 2D cycle", _cycle_change),
-)
-
-
-_CAPTION = (
-    "How far the 3D side can be trusted; each figure is the largest of the cycle. Flow by rays: the 3D flow "
-    "rate that errors are taken from, against planes cut through the 3D mesh. Inflow: through the 3D inlet, "
-    "against the waveform of the case. Mass defect: share of the 3D inflow that neither leaves nor widens "
-    "the artery. Backflow: share of 3D points off the wall that do not flow forward. A 2D error smaller "
-    "than these says nothing about the 2D model. Last column: how much the 2D model still changed over its "
-    f"last cycle; near zero, it had become periodic. {ABSENT}: not measured."
+_CHECKS: tuple[tuple[str, Check, str], ...] = (
+    (
+        "3D flow rate: along rays against planes",
+        planes,
+        "how well the flow rate that the errors are taken from is read off the 3D mesh",
+    ),
+    (
+        "3D inflow against the prescribed one",
+        inflow,
+        "whether both models are driven by the same flow",
+    ),
+    (
+        "3D mass defect",
+        _largest_of_3d("mass_defect"),
+        "share of the inflow that neither leaves nor widens the artery",
+    ),
+    (
+        "3D backflow",
+        _largest_of_3d("backflow_fraction"),
+        "share of the points off the wall that do not flow forward",
+    ),
+    ("cycle covered by 3D states", coverage, "the rest of the cycle is not compared"),
+    ("2D change over its last cycle", _cycle_change, "near zero, the 2D model had become periodic"),
 )
 
 
 def table(comparison: Comparison) -> Table:
-    """Return the checks, a row for each variant."""
+    """Return the checks, a row each, with a column for each variant."""
     return Table(
         "trust",
-        _CAPTION,
-        (Column("variant"), *(Column(title, "number") for title, _ in _CHECKS)),
+        "How far the 3D side can be trusted: the largest figure of the cycle. A 2D error smaller than these "
+        f"says nothing about the 2D model. {ABSENT}: not measured.",
+        (
+            Column("check", "prose"),
+            *(Column(name, "number") for name in comparison.variants),
+            Column("what it tells", "prose"),
+        ),
         tuple(
-            (name, *(_share(check(comparison, name)) for _, check in _CHECKS)) for name in comparison.variants
+            (title, *(_share(check(comparison, name)) for name in comparison.variants), meaning)
+            for title, check, meaning in _CHECKS
         ),
     )
 
