@@ -1,5 +1,7 @@
 """What each inlet prescribes, exactly and at every step; second order with each."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, HEALTHY, LENGTH, PATTERNS, SECTION_OUTLET, artery
@@ -85,7 +87,7 @@ def orders(kind, resolutions, coarsest):
     found = [answers(kind, n_x, time_step, coarsest) for n_x, time_step in resolutions]
     errors = [
         [norm for a, b in zip(one, two, strict=True) for norm in (np.abs(a - b).max(), np.std(a - b))]
-        for one, two in zip(found[:-1], found[1:], strict=True)
+        for one, two in pairwise(found)
     ]
     return np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
 
