@@ -78,7 +78,7 @@ def align(times: NDArray[np.float64], offset: float, period: float, cycles: int)
         cycle_times=cycle_times,
         rom_times=cycle_times + (cycles - 1) * period,
         cycles_later=cycles - 1 - cycle,
-        coverage=float(cycle_times[-1] - cycle_times[0]) / period if states.size else 0.0,
+        coverage=min(1.0, float(cycle_times[-1] - cycle_times[0]) / period),
     )
 
 

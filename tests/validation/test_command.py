@@ -325,7 +325,7 @@ class TestWrongInput:
             (edited("geometry", "length", "15 s"), "geometry.length", "mm"),
             (edited("geometry", "wall_thickness", "-0.5 mm"), "geometry.wall_thickness", "allowed"),
             (patch(phi=["135 deg", "600 deg"]), "calcification.phi", "360 deg"),
-            (edited("solver", "n_x", 1), "solver.n_x", "3 on"),
+            (edited("solver", "n_x", 1), "solver.n_x", "from 3 to"),
         ],
     )
     def test_wrong_value(self, refused, case, key, allowed):
