@@ -1,6 +1,6 @@
 """What the report says, once, for every rendering."""
 
-from reports import change, cycle, provenance, velocity, verdict
+from reports import assumptions, change, cycle, exponents, maps, provenance, velocity, verdict
 from reports.blocks import Report
 from reports.load import Comparison
 from reports.numbers import counted, listed
@@ -32,6 +32,10 @@ def report(comparison: Comparison) -> Report:
             change.section(comparison),
             cycle.section(comparison),
             velocity.section(comparison),
+            exponents.section(comparison),
+            maps.section(comparison),
+            assumptions.dominance_section(comparison),
+            assumptions.checks_section(comparison),
             provenance.section(comparison),
         ),
     )

@@ -4,10 +4,8 @@ The reference (3D) is near-black points, the reduced model (2D) a solid blue lin
 the three also differ in grey and for the colour-blind.
 """
 
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from matplotlib import style
@@ -19,33 +17,18 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from reports.drawing import STYLE, WIDTH, svg_text
+
 Array = NDArray[np.float64]
 
 REFERENCE_COLOUR = "#1a1a1a"
 ROM_COLOUR = "#0072b2"
 DIFFERENCE_COLOUR = "#b8480b"
 _MARK_COLOUR = "#9a9a9a"
-_WIDTH = 6.9  # inches; the text width of an A4 page
 _LEFT, _RIGHT, _TOP, _BOTTOM, _GAP = 0.62, 0.26, 0.50, 0.40, 0.10
 _CURVE_HEIGHT, _CURVE_HEIGHT_ALONE, _DIFFERENCE_HEIGHT = 1.22, 0.86, 0.72
 _ROW_GAP = 0.14
 _MOST_MARKERS = 45
-_STYLE: dict[str, Any] = {
-    "svg.hashsalt": "report",
-    "svg.fonttype": "path",
-    "font.family": "DejaVu Sans",
-    "font.size": 7.0,
-    "axes.linewidth": 0.5,
-    "axes.formatter.useoffset": False,
-    "axes.unicode_minus": True,
-    "xtick.major.width": 0.5,
-    "ytick.major.width": 0.5,
-    "xtick.major.size": 2.0,
-    "ytick.major.size": 2.0,
-    "xtick.major.pad": 1.5,
-    "ytick.major.pad": 1.5,
-    "path.simplify": True,
-}
 
 
 @dataclass(frozen=True)
@@ -112,14 +95,14 @@ def small_multiples(
     str
         SVG; the same text for the same input.
     """
-    with style.context(_STYLE):
+    with style.context(STYLE):
         heights = [
             height
             for row in rows
             for height in ((_CURVE_HEIGHT, _DIFFERENCE_HEIGHT) if row.difference else (_CURVE_HEIGHT_ALONE,))
         ]
         total = _TOP + _BOTTOM + sum(heights) + _ROW_GAP * (len(heights) - 1)
-        figure = Figure(figsize=(_WIDTH, total))
+        figure = Figure(figsize=(WIDTH, total))
         FigureCanvasSVG(figure)
         axes = _panels(figure, heights, len(columns), total)
         _legend(figure, bool(marks), any(row.difference for row in rows))
@@ -132,11 +115,11 @@ def small_multiples(
                 _differences(next(lines), row, abscissa, marks)
         _abscissas(axes, abscissa)
         figure.supxlabel(abscissa_label, fontsize=7.5, y=0.06 / total, va="bottom")
-        return _svg(figure)
+        return svg_text(figure)
 
 
 def _panels(figure: Figure, heights: Sequence[float], n_columns: int, total: float) -> list[list[Axes]]:
-    width = (_WIDTH - _LEFT - _RIGHT - _GAP * (n_columns - 1)) / n_columns
+    width = (WIDTH - _LEFT - _RIGHT - _GAP * (n_columns - 1)) / n_columns
     grid, top = [], total - _TOP
     for height in heights:
         bottom = top - height
@@ -144,9 +127,9 @@ def _panels(figure: Figure, heights: Sequence[float], n_columns: int, total: flo
             [
                 figure.add_axes(
                     (
-                        (_LEFT + column * (width + _GAP)) / _WIDTH,
+                        (_LEFT + column * (width + _GAP)) / WIDTH,
                         bottom / total,
-                        width / _WIDTH,
+                        width / WIDTH,
                         height / total,
                     )
                 )
@@ -175,7 +158,7 @@ def _legend(figure: Figure, marked: bool, differences: bool) -> None:
     figure.legend(
         handles=handles,
         loc="upper left",
-        bbox_to_anchor=(_LEFT / _WIDTH, 1.0),
+        bbox_to_anchor=(_LEFT / WIDTH, 1.0),
         borderaxespad=0.3,
         ncols=len(handles),
         frameon=False,
@@ -276,13 +259,3 @@ def _limits(arrays: Sequence[Array], from_zero: bool) -> tuple[float, float]:
     span = high - low if high - low > 1e-9 * max(abs(low), abs(high)) else 0.0  # not what is mere round-off
     margin = 0.06 * span or 0.05 * abs(high) or 1.0
     return (low if from_zero and low == 0 else low - margin), high + margin
-
-
-def _svg(figure: Figure) -> str:
-    with io.StringIO() as text:
-        figure.savefig(
-            text,
-            format="svg",
-            metadata={"Date": None, "Creator": None, "Format": None, "Type": None},
-        )
-        return text.getvalue()

@@ -1,5 +1,6 @@
 """A finished comparison directory, read and checked before anything is drawn."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from reports.errors import ReportError
 from reports.metrics import Metrics, read_metrics
 from reports.provenance_file import Provenance, read_provenance
 
+MAPS = ("pressure", "radius", "sector_flow_rate", "profile_exponent")
 CURVES = ("pressure", "radius", "sector_flow_rate", "section_flow_rate")
 
 
@@ -37,6 +39,11 @@ class Comparison:
         Both models' pressure, radius, sector and section flow rate over the cycle at columns `i`, all φ.
     profiles : xarray.Dataset
         Both models' axial velocity (m/s) at the named instants and cells, over y = r/R.
+    maps : xarray.Dataset
+        Both models' pressure, radius, sector flow rate and profile exponent, the error of the profile closest
+        to 3D, at the named instants on all cells; which cells are calcified.
+    pressure_range_over_section : xarray.Dataset
+        Of both models and each variant, the largest range over φ of the pressure in a section (Pa).
     wall_varies_around : dict of str to bool
         Whether a variant's wall stiffness depends on φ.
     metrics : Metrics
@@ -58,6 +65,8 @@ class Comparison:
     times: tuple[tuple[str, float], ...]
     curves: xr.Dataset
     profiles: xr.Dataset
+    maps: xr.Dataset
+    pressure_range_over_section: xr.Dataset
     wall_varies_around: dict[str, bool]
     metrics: Metrics
     provenance: Provenance
@@ -106,12 +115,23 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
         phi=tuple(dataset["phi"].values[rows].tolist()),
         n_phi=dataset.sizes["phi"],
         times=attributes.times,
-        curves=dataset[[f"{model}_{name}" for model in MODELS for name in CURVES]].isel(x=columns).load(),
+        curves=dataset[_both(CURVES)].isel(x=columns).load(),
         profiles=dataset[list(PROFILES)].isel(time=states, x=columns, phi=rows).load(),
+        maps=dataset[[*_both(MAPS), "reference_profile_error", "calcified"]].isel(time=states).load(),
+        pressure_range_over_section=_pressure_range(dataset[_both(("pressure",))]),
         wall_varies_around=_varies_around(dataset["wall_stiffness"].load()),
         metrics=metrics,
         provenance=provenance,
     )
+
+
+def _both(names: Sequence[str]) -> list[str]:
+    return [f"{model}_{name}" for model in MODELS for name in names]
+
+
+def _pressure_range(pressure: xr.Dataset) -> xr.Dataset:
+    loaded = pressure.load()
+    return (loaded.max("phi") - loaded.min("phi")).max(("time", "x"))
 
 
 def _varies_around(stiffness: xr.DataArray) -> dict[str, bool]:

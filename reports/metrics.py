@@ -68,6 +68,13 @@ class Metrics:
         """Return the one row about this, or None where the comparison has none."""
         return self.index.get((variant, quantity, statistic, i, j, _instant(t_s)))
 
+    def largest_row(self, variant: str, quantity: str) -> Row | None:
+        """Return the row of the largest value, which may name the cell where it was found."""
+        for row in self.rows:
+            if (row.variant, row.quantity, row.statistic) == (variant, quantity, "largest"):
+                return row
+        return None
+
     def largest(self, variant: str, quantity: str, statistic: str) -> float | None:
         """Return the largest |error| of all rows of a statistic, or None where none has an error."""
         errors = [

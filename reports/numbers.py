@@ -6,6 +6,8 @@ from collections.abc import Iterable
 ABSENT = "—"
 SPACE = "\u00a0"  # a number keeps its unit on the same line
 
+_LEAST_SHARE = 5e-5  # what two decimals of a percentage can tell from zero
+
 #: SI unit → unit and factor in which differences are shown: one step finer than the quantity itself.
 DIFFERENCE_UNITS = {
     "Pa": ("Pa", 1.0),
@@ -63,6 +65,15 @@ def percent(ratio: float | None, decimals: int = 2) -> str:
 def unsigned(text: str) -> str:
     """Take the plus sign from a figure that is never negative."""
     return text.removeprefix("+")
+
+
+def share(value: float | None) -> str:
+    """Write the size of a relative figure; one too small for two decimals is not shown as zero."""
+    if value == 0:
+        return f"0{SPACE}%"
+    if value is not None and abs(value) < _LEAST_SHARE:
+        return f"<{SPACE}0.01{SPACE}%"
+    return unsigned(percent(None if value is None else abs(value)))
 
 
 def _is_zero(text: str) -> bool:

@@ -5,14 +5,14 @@ import io
 from collections.abc import Iterable, Sequence
 
 
-def comma_separated(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """CSV with nine significant digits; an absent value is an empty field."""
+def comma_separated(header: Sequence[str], rows: Iterable[Sequence[object]], digits: int = 9) -> str:
+    """CSV with so many significant digits; an absent value is an empty field."""
     with io.StringIO(newline="") as text:
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(header)
-        writer.writerows([_cell(value) for value in row] for row in rows)
+        writer.writerows([_cell(value, digits) for value in row] for row in rows)
         return text.getvalue()
 
 
-def _cell(value: object) -> object:
-    return format(value, ".9g") if isinstance(value, float) else value
+def _cell(value: object, digits: int) -> object:
+    return format(value, f".{digits}g") if isinstance(value, float) else value

@@ -4,23 +4,12 @@ from collections.abc import Callable
 
 from reports.blocks import Column, Table
 from reports.load import Comparison
-from reports.numbers import ABSENT, SPACE, percent, unsigned
+from reports.numbers import ABSENT, SPACE, share
 
 PLANES_LIMIT = 0.005
 INFLOW_LIMIT = 0.02
 COVERAGE_LIMIT = 0.95
 Check = Callable[[Comparison, str], float | None]
-
-_LEAST_SHOWN = 5e-5  # what two decimals of a percentage can tell from zero
-
-
-def _share(value: float | None) -> str:
-    """Write the size of a relative figure; one too small for two decimals is not shown as zero."""
-    if value is None:
-        return ABSENT
-    if value == 0:
-        return f"0{SPACE}%"
-    return f"<{SPACE}0.01{SPACE}%" if abs(value) < _LEAST_SHOWN else unsigned(percent(abs(value)))
 
 
 def planes(comparison: Comparison, variant: str) -> float | None:
@@ -44,7 +33,7 @@ def _cycle_change(comparison: Comparison, variant: str) -> float | None:
 
 def _largest_of_3d(quantity: str) -> Check:
     def check(comparison: Comparison, variant: str) -> float | None:
-        row = comparison.metrics.find(variant, quantity, "largest")
+        row = comparison.metrics.largest_row(variant, quantity)
         return row.reference if row else None
 
     return check
@@ -88,7 +77,7 @@ def table(comparison: Comparison) -> Table:
             Column("what it tells", "prose"),
         ),
         tuple(
-            (title, *(_share(check(comparison, name)) for name in comparison.variants), meaning)
+            (title, *(share(check(comparison, name)) for name in comparison.variants), meaning)
             for title, check, meaning in _CHECKS
         ),
     )
@@ -97,7 +86,7 @@ def table(comparison: Comparison) -> Table:
 def doubts(comparison: Comparison) -> tuple[str, ...]:
     """Say in a sentence each check of the 3D side that fails, before anyone reads a verdict."""
     return tuple(
-        sentence.format(value=_share(value), name=name)
+        sentence.format(value=share(value), name=name)
         for check, fails, sentence in _DOUBTS
         for name in comparison.variants
         if (value := check(comparison, name)) is not None and fails(value)
@@ -123,7 +112,7 @@ _DOUBTS: tuple[tuple[Check, Callable[[float], bool], str], ...] = (
     ),
     (
         coverage,
-        lambda share: share < COVERAGE_LIMIT,
+        lambda covered: covered < COVERAGE_LIMIT,
         "The 3D states of {name} cover only {value} of the cycle: the rest of it is not compared.",
     ),
 )

@@ -58,3 +58,18 @@ def test_lists_read_as_english() -> None:
         "1 and 2",
         "1, 2 and 3",
     ]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0 %"),
+        (8.8e-11, "< 0.01 %"),
+        (-4e-5, "< 0.01 %"),
+        (-0.0081, "0.81 %"),
+        (1.0, "100.00 %"),
+        (None, "—"),
+    ],
+)
+def test_a_share_too_small_for_its_decimals_is_not_zero(value: float | None, text: str) -> None:
+    assert numbers.share(value).replace("\u00a0", " ") == text

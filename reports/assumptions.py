@@ -1,0 +1,144 @@
+"""Sections 7 and 8: whether 3D allows what the 2D model assumes."""
+
+from collections.abc import Callable
+
+from reports.blocks import Block, Column, Paragraph, Section, Table
+from reports.cells import chunks
+from reports.load import Comparison
+from reports.numbers import ABSENT, SPACE, fixed, rounded, share, with_unit
+from reports.words import place
+
+_RADIAL, _AZIMUTHAL = "axial_dominance_radial", "axial_dominance_azimuthal"
+_RATIOS = {_RADIAL: "|v_r|/v_x", _AZIMUTHAL: "|v_φ|/v_x"}
+_DECIMALS = 3
+_NEGLIGIBLE = 0.1
+
+Figures = Callable[[Comparison, str], tuple[str, str]]
+
+
+def _ratio(value: float | None) -> str:
+    """Write a ratio; one too small for the decimals is not shown as zero."""
+    if value is not None and 0 < value < 0.5 * 10**-_DECIMALS:
+        return f"<{SPACE}{10**-_DECIMALS:.{_DECIMALS}f}"
+    return fixed(value, _DECIMALS)
+
+
+def _dominance_tables(comparison: Comparison, quantity: str) -> tuple[Table, ...]:
+    """Return the ratio at the shown cells, a line per variant and row j."""
+    tables = []
+    for cells in chunks(comparison.i):
+        rows = [
+            (variant, str(j), *(_ratio(row.reference if row else None) for row in found))
+            for variant in comparison.variants
+            for j in comparison.rows_of(variant)
+            for found in ([comparison.metrics.find(variant, quantity, "value", i, j) for i in cells],)
+            if any(found)
+        ]
+        if rows:
+            columns = (
+                Column("variant"),
+                Column("j", "number"),
+                *(Column(f"i = {i}", "number") for i in cells),
+            )
+            caption = f"Largest {_RATIOS[quantity]} of 3D over the ray and the cycle at the shown cells."
+            key = f"{quantity.replace('_', '-')}-{cells[0]}"
+            tables.append(Table(key, caption, columns, tuple(rows), rule_by=0))
+    return tuple(tables)
+
+
+def _largest_table(comparison: Comparison) -> Table | None:
+    rows = []
+    for variant in comparison.variants:
+        found = [comparison.metrics.largest_row(variant, quantity) for quantity in _RATIOS]
+        if any(found):
+            texts = ((_ratio(row.reference), place(row)) if row else (ABSENT, ABSENT) for row in found)
+            rows.append((variant, *(text for pair in texts for text in pair)))
+    if not rows:
+        return None
+    columns = [Column("variant")]
+    for words in _RATIOS.values():
+        columns += [Column("largest", "number", words), Column("at", "text", words)]
+    caption = "The largest ratios of 3D over all cells, and where they are."
+    return Table("largest-dominance", caption, tuple(columns), tuple(rows))
+
+
+def _dominance_sentence(comparison: Comparison) -> str:
+    rows = [
+        row
+        for variant in comparison.variants
+        for quantity in _RATIOS
+        if (row := comparison.metrics.largest_row(variant, quantity)) and row.reference is not None
+    ]
+    opening = (
+        "The 2D model neglects the radial velocity v_r and the azimuthal velocity v_φ beside the axial v_x. "
+    )
+    if not rows:
+        return f"{opening}How small they are in 3D was not measured."
+    row = max(rows, key=lambda r: r.reference or 0.0)
+    verdict = (
+        "nowhere more than a tenth of"
+        if (row.reference or 0.0) <= _NEGLIGIBLE
+        else "not everywhere small beside"
+    )
+    return (
+        f"{opening}In 3D they are {verdict} v_x: the largest ratio, {_RATIOS[row.quantity]} = "
+        f"{_ratio(row.reference)}, is in variant {row.variant} at {place(row)}."
+    )
+
+
+def dominance_section(comparison: Comparison) -> Section:
+    """Build the section on axial dominance."""
+    blocks: list[Block] = [Paragraph(_dominance_sentence(comparison))]
+    largest = _largest_table(comparison)
+    if largest:
+        blocks.append(largest)
+    for quantity in _RATIOS:
+        blocks += _dominance_tables(comparison, quantity)
+    return Section("dominance", "Axial dominance", tuple(blocks))
+
+
+def _largest(quantity: str, words: Callable[[float | None], str] = share) -> Figures:
+    def figures(comparison: Comparison, variant: str) -> tuple[str, str]:
+        row = comparison.metrics.largest_row(variant, quantity)
+        return (words(row.reference), words(row.rom)) if row else (ABSENT, ABSENT)
+
+    return figures
+
+
+def _pressure_range(comparison: Comparison, variant: str) -> tuple[str, str]:
+    ranges = comparison.pressure_range_over_section.sel(variant=variant)
+    three, two = (float(ranges[f"{model}_pressure"]) for model in ("reference", "rom"))
+    return with_unit(rounded(three, 3), "Pa"), with_unit(rounded(two, 3), "Pa")
+
+
+_ASSUMPTIONS: tuple[tuple[str, str, Figures], ...] = (
+    (
+        "one axial velocity on the axis",
+        "spread over φ of v_x on the axis, over its mean",
+        _largest("axis_velocity_spread"),
+    ),
+    ("mass is conserved", "inflow − outflow − change of volume, over the inflow", _largest("mass_defect")),
+    ("the blood flows forward", "share of points off the wall with v_x ≤ 0", _largest("backflow_fraction")),
+    ("no radial velocity", "|v_r|/v_x", _largest(_RADIAL, _ratio)),
+    ("no azimuthal velocity", "|v_φ|/v_x", _largest(_AZIMUTHAL, _ratio)),
+    ("the pressure is uniform over a section", "range of the pressure over φ", _pressure_range),
+)
+
+
+def checks_section(comparison: Comparison) -> Section:
+    """Build the section on the assumptions checked."""
+    table = Table(
+        "assumption-figures",
+        "What the 2D model assumes of the flow, and how far each model is from it: the largest figures over "
+        f"the artery and the cycle. {ABSENT}: the model has none by construction, or it was not measured.",
+        (
+            Column("assumption", "prose"),
+            Column("measured by", "prose"),
+            *(Column(model, "number", name) for name in comparison.variants for model in ("3D", "2D")),
+        ),
+        tuple(
+            (title, measure, *(text for name in comparison.variants for text in figures(comparison, name)))
+            for title, measure, figures in _ASSUMPTIONS
+        ),
+    )
+    return Section("assumptions", "Assumptions checked", (table,))

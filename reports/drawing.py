@@ -1,0 +1,37 @@
+"""What all figures share: size, style, and how they become SVG."""
+
+import io
+from typing import Any
+
+from matplotlib.figure import Figure
+
+WIDTH = 6.9  # inches; the text width of an A4 page
+STYLE: dict[str, Any] = {
+    "svg.hashsalt": "report",
+    "svg.fonttype": "path",
+    "font.family": "DejaVu Sans",
+    "font.size": 7.0,
+    "axes.linewidth": 0.5,
+    "axes.formatter.useoffset": False,
+    "axes.unicode_minus": True,
+    "xtick.major.width": 0.5,
+    "ytick.major.width": 0.5,
+    "xtick.major.size": 2.0,
+    "ytick.major.size": 2.0,
+    "xtick.major.pad": 1.5,
+    "ytick.major.pad": 1.5,
+    "path.simplify": True,
+}
+_RASTER_DPI = 150  # of what is drawn as an image inside the vectors
+
+
+def svg_text(figure: Figure) -> str:
+    """Return the figure as SVG; the same text for the same figure."""
+    with io.StringIO() as text:
+        figure.savefig(
+            text,
+            format="svg",
+            dpi=_RASTER_DPI,
+            metadata={"Date": None, "Creator": None, "Format": None, "Type": None},
+        )
+        return text.getvalue()

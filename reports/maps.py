@@ -1,0 +1,93 @@
+"""Section 6: maps of the fields over the unrolled lumen, (x, φ), in both models."""
+
+import numpy as np
+import xarray as xr
+
+from cases.fields import FIELDS, Field
+from reports.blocks import Figure, Paragraph, Section, Subsection
+from reports.heat_maps import MapRow, Maps, heat_maps
+from reports.load import Comparison
+from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
+from reports.numbers import DIFFERENCE_UNITS, listed, signed, with_unit
+from reports.words import instant, spot
+
+_MAPPED = ("radius", "sector_flow_rate", "profile_exponent", "pressure")
+_SYMBOLS = {"radius": "R", "sector_flow_rate": "$q_φ$", "profile_exponent": "γ", "pressure": "P"}
+
+
+def _difference(data: xr.Dataset, name: str) -> Array:
+    """2D − 3D in SI; NaN where a profile exponent is infinite in both."""
+    with np.errstate(invalid="ignore"):
+        return field(data, f"rom_{name}") - field(data, f"reference_{name}")
+
+
+def _label(symbol: str, unit: str) -> str:
+    return symbol if unit in ("", "1") else f"{symbol} ({unit})"
+
+
+def _row(data: xr.Dataset, quantity: Field) -> MapRow:
+    unit, factor = DIFFERENCE_UNITS[quantity.unit]
+    both = tuple(
+        field(data, f"{model}_{quantity.name}", quantity.display_factor) for model in ("reference", "rom")
+    )
+    symbol = _SYMBOLS[quantity.name]
+    return MapRow(
+        "",
+        (
+            Maps(both, _label(symbol, quantity.display_unit)),
+            Maps((factor * _difference(data, quantity.name),), _label("2D − 3D", unit), difference=True),
+        ),
+    )
+
+
+def _farthest(data: xr.Dataset, quantity: Field) -> str:
+    """Say where the models differ most."""
+    difference = _difference(data, quantity.name)
+    if not np.isfinite(difference).any():
+        return f"{quantity.label} nowhere finite"
+    sizes = np.where(np.isfinite(difference), np.abs(difference), -1.0)
+    i, j = np.unravel_index(int(sizes.argmax()), sizes.shape)
+    unit, factor = DIFFERENCE_UNITS[quantity.unit]
+    value = with_unit(signed(factor * float(difference[i, j])), unit)
+    return f"{quantity.label} {value} ({spot(int(i) + 1, int(j) + 1, None)})"
+
+
+def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figure:
+    data = comparison.maps.sel(variant=variant).isel(time=state)
+    quantities = [FIELDS[name] for name in _MAPPED]
+    when = instant(*comparison.times[state])
+    farthest = "; ".join(_farthest(data, quantity) for quantity in quantities)
+    what = listed(quantity.label for quantity in quantities)
+    return Figure(
+        key=key,
+        caption=f"Variant {variant}, {when}: {what} over the unrolled lumen; 3D and 2D in one scale, 2D − 3D "
+        f"in a scale centred on zero. Farthest apart: {farthest}.{outlined(data)}",
+        alt=f"Maps over x and φ of {what} in 3D, in 2D and their difference, variant {variant}, {when}. "
+        f"Farthest apart: {farthest}.",
+        svg=heat_maps(
+            *centres(data),
+            ("3D", "2D", "2D − 3D"),
+            [_row(data, quantity) for quantity in quantities],
+            data["calcified"].values > 0,
+        ),
+        csv=cells_csv(
+            [(comparison.times[state][1], data)],
+            [f"{model}_{name}" for name in _MAPPED for model in ("reference", "rom")],
+        ),
+    )
+
+
+def section(comparison: Comparison) -> Section:
+    """Build the section of the maps of all fields, at the first named instant."""
+    title = "(x, φ) maps"
+    if not comparison.times:
+        return Section("maps", title, (Paragraph(WITHOUT_INSTANT),))
+    figures = tuple(
+        Subsection(f"maps-{k}", f"Variant {name}", (_figure(comparison, name, 0, f"maps-{k}-figure"),))
+        for k, name in enumerate(comparison.variants, start=1)
+    )
+    others = [instant(*named) for named in comparison.times[1:]]
+    note = f" The fields at {listed(others)} are in comparison.nc." if others else ""
+    return Section(
+        "maps", title, (Paragraph(f"All maps are at {instant(*comparison.times[0])}.{note}"), *figures)
+    )
