@@ -193,24 +193,34 @@ def _eliminate(p: Parameters, s: Stepping, ws: Workspace, slopes: tuple[float, f
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _substitute(p: Parameters, s: Stepping, ws: Workspace, slopes: tuple[float, float]) -> None:
-    """Back substitution: P' − P of the iterate in every cell; P' and Q' with it."""
+    """Back substitution: P' − P of the iterate in every cell."""
     n_x, n_phi = ws.mean_area.shape
     c = s.theta * s.time_step / p.dx
+    first, second, slope = ws.correction[0], ws.correction[1], ws.area_slope[1]
     for i in range(n_x - 2, -1, -1):
         conductance, below = ws.conductance[i + 1], ws.correction[i + 1]
         correction, inverse = ws.correction[i], ws.inverse_pivot[i]
-        flow, pressure = ws.explicit_flow[i + 1], ws.iterate_pressure[i + 1]
-        if i == 0:
-            second = ws.area_slope[1]
-            for j in range(n_phi):
-                correction[j] += c * slopes[1] * second[j] * below[j]
         for j in range(n_phi):
             correction[j] = (correction[j] + c * conductance[j] * below[j]) * inverse[j]
-            flow[j] -= conductance[j] * (below[j] - correction[j])
-            pressure[j] += below[j]
+    for j in range(n_phi):
+        first[j] += c * slopes[1] * slope[j] * second[j] * ws.inverse_pivot[0, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _correct(ws: Workspace, slopes: tuple[float, float]) -> None:
+    """P' in every cell, and Q' on every face but the outlet, which is closed already."""
+    n_x, n_phi = ws.mean_area.shape
+    for f in range(1, n_x):
+        left, right = ws.correction[f - 1], ws.correction[f]
+        flow, conductance = ws.explicit_flow[f], ws.conductance[f]
+        for j in range(n_phi):
+            flow[j] -= conductance[j] * (right[j] - left[j])
+    for i in range(n_x):
+        pressure, correction = ws.iterate_pressure[i], ws.correction[i]
+        for j in range(n_phi):
+            pressure[j] += correction[j]
     first, second = ws.correction[0], ws.correction[1]
     for j in range(n_phi):
-        ws.iterate_pressure[0, j] += first[j]
         change = slopes[0] * ws.area_slope[0, j] * first[j] + slopes[1] * ws.area_slope[1, j] * second[j]
         ws.explicit_flow[0, j] += change - ws.conductance[0, j] * first[j]
 
@@ -219,9 +229,8 @@ def _substitute(p: Parameters, s: Stepping, ws: Workspace, slopes: tuple[float, 
 def _rms(values: Array) -> float:
     """Root of the mean square of a 2-D array."""
     total = 0.0
-    for row in values:
-        for j in range(row.size):
-            total += row[j] * row[j]
+    for value in values.ravel():
+        total += value * value
     return float(np.sqrt(total / values.size))
 
 
@@ -290,6 +299,7 @@ def _sweep(
     _eliminate(p, s, ws, slopes)
     close_outlet(p, s, ws)
     _substitute(p, s, ws, slopes)
+    _correct(ws, slopes)
     return OK, 0, 0
 
 
