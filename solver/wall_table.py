@@ -76,7 +76,7 @@ class WallTable:
         return area
 
     def pressure(self, area: Floats) -> Floats:
-        """P of every cell at areas (..., n_x, n_phi), Pa: bisection and Newton's method on the table.
+        """P of every cell at areas (..., n_x, n_phi), Pa: by bisection on the table.
 
         Raises
         ------

@@ -162,7 +162,8 @@ def test_a_users_table(case_with_wall, case_file):
     "wall",
     [
         "{law: neo_hookean, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}",
-        "{law: saint_venant_kirchhoff, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48, reference_pressure: 8 kPa}",
+        "{law: saint_venant_kirchhoff, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48, "
+        "reference_pressure: 8 kPa}",
     ],
 )
 def test_finite_strain_from_a_case(case_with_wall, wall):
