@@ -36,6 +36,7 @@ _VARIABLES: dict[str, tuple[str, ...]] = {
 }
 _MAY_BE_INFINITE = ("reference_profile_exponent", "rom_profile_exponent")  # plug flow
 _MAY_BE_ABSENT = ("reference_profile_error",)  # where nothing flows there is no profile
+_UNREADABLE = (OSError, RuntimeError, TypeError, ValueError)  # what xarray and netCDF4 raise for broken data
 _AXES = ("time", "x", "phi", "y")
 _TEXTS = ("case", "title", "baseline", "compare_time_names", "case_yaml")
 _NUMBERS = ("period_s", "compare_i", "compare_j", "compare_times_s")
@@ -52,14 +53,22 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
         finished comparison does; also if its data cannot be read later, inside the block.
     """
     try:
-        with xr.open_dataset(path, engine="netcdf4", decode_times=False) as dataset:
+        dataset = xr.open_dataset(path, engine="netcdf4", decode_times=False)
+    except (AttributeError, *_UNREADABLE) as error:  # the first for an attribute that is broken on disk
+        raise _unreadable(path, error) from error
+    try:
+        with dataset:
             _check_names(path, dataset)
             _check_axes(path, dataset)
             _check_values(path, dataset)
             yield dataset
-    except (OSError, RuntimeError, TypeError, ValueError) as error:
-        reason = str(error).partition("\n")[0]
-        raise ReportError(f"{path}: cannot be read as NetCDF-4: {reason}") from error
+    except _UNREADABLE as error:
+        raise _unreadable(path, error) from error
+
+
+def _unreadable(path: Path, error: Exception) -> ReportError:
+    reason = str(error).partition("\n")[0]
+    return ReportError(f"{path}: cannot be read as NetCDF-4: {reason}")
 
 
 def _check_names(path: Path, dataset: xr.Dataset) -> None:

@@ -7,7 +7,13 @@ from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, 
 from reports.load import Comparison
 from reports.numbers import ABSENT, counted
 
-_KEYS = {"n_x": "cells along the artery", "n_phi": "cells around the artery"}
+_KEYS = {
+    "n_x": "cells along the artery",
+    "n_phi": "cells around the artery",
+    "viscosity_Pa_s": "viscosity (Pa s)",
+    "coverage": "share of the cycle covered",
+    "cycle_change": "relative change over the last cycle",
+}
 
 
 def _word(value: object) -> str:

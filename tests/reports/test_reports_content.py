@@ -10,7 +10,7 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports import change, cycle, velocity, verdict
+from reports import change, cycle, provenance, velocity, verdict
 from reports.blocks import Bullets, Figure, Paragraph, Section, Subsection, Table, Warnings
 from reports.load import load
 
@@ -148,13 +148,13 @@ def test_without_doubt_there_is_no_warning(finished: tuple[Path, Rows]) -> None:
 def test_an_older_result_without_the_newer_keys_is_shown(tmp_path: Path, small: synthetic.Setup) -> None:
     synthetic.write(tmp_path, small)
     path = tmp_path / "provenance.json"
-    provenance = json.loads(path.read_text())
-    del provenance["warnings"]
-    del provenance["variants"]["local"]["reference"]["coverage"]
-    del provenance["variants"]["local"]["rom"]["cycle_change"]
-    for band in provenance["bands"]:
+    record = json.loads(path.read_text())
+    del record["warnings"]
+    del record["variants"]["local"]["reference"]["coverage"]
+    del record["variants"]["local"]["rom"]["cycle_change"]
+    for band in record["bands"]:
         band["variants"] = None
-    path.write_text(json.dumps(provenance))
+    path.write_text(json.dumps(record))
     section = verdict.section(load(tmp_path))
     assert not _blocks(section, Warnings)
     assert [row[1] for row in _table(section, "trust").rows[-2:]] == ["—", "—"]
@@ -312,3 +312,12 @@ def test_rows_without_figures_leave_gaps_not_errors(tmp_path: Path, small: synth
     assert "—" in _table(change.section(comparison), "section-flow").rows[0]
     assert "—" in _table(verdict.section(comparison), "trust").rows[0]
     assert _blocks(verdict.section(comparison), Bullets)
+
+
+def test_settings_are_named_in_words_with_their_unit(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    path = tmp_path / "provenance.json"
+    path.write_text(path.read_text().replace('"scheme"', '"viscosity_Pa_s": 0.0035, "scheme"'))
+    table = _table(provenance.section(load(tmp_path)), "rom")
+    assert ("viscosity (Pa s)", "0.0035") in table.rows
+    assert ("time step (s)", "0.001") in table.rows

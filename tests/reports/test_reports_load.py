@@ -1,3 +1,4 @@
+import dataclasses
 import hashlib
 import json
 import math
@@ -104,6 +105,18 @@ def test_a_dataset_that_does_not_fit_is_refused(
     _change_dataset(tmp_path, change)
     with pytest.raises(ReportError, match=message):
         load(tmp_path)
+
+
+def test_a_netcdf_file_cut_short_is_refused(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, dataclasses.replace(small, n_time=2, n_x=6, n_y=3, time_names=()))
+    path = tmp_path / "comparison.nc"
+    whole = path.read_bytes()
+    path.unlink()
+    for cut in range(0, len(whole), len(whole) // 8):
+        path.write_bytes(whole[:cut])
+        with pytest.raises(ReportError, match=r"comparison\.nc: cannot be read as NetCDF-4"):
+            load(tmp_path)
+        path.unlink()
 
 
 def test_a_missing_attribute_is_named(tmp_path: Path, small: synthetic.Setup) -> None:
