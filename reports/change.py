@@ -124,27 +124,32 @@ def _largest(comparison: Comparison, variant: str, quantity: str) -> str:
     return f"{field.label} {three} in 3D and {two} in 2D (at {place(row)})"
 
 
+def _noticeable(change: float, value: float) -> bool:
+    """Whether a change is more than 0.1 % of what it changed."""
+    return abs(change) > _NOTICEABLE * abs(value - change)
+
+
 def _signs(comparison: Comparison, variant: str) -> str:
     """Say for how many cycle quantities that change in 3D the 2D model changes the same way."""
     wrong, changed = [], 0
     for field in _cycle_fields(comparison):
         change = comparison.metrics.find(variant, field.name, "change")
         value = comparison.metrics.find(variant, field.name, "cycle")
-        if change is None or value is None or None in (change.reference, change.rom, value.reference):
+        if change is None or value is None:
             continue
-        three, two, whole = change.reference or 0.0, change.rom or 0.0, value.reference or 0.0
-        if abs(three) > _NOTICEABLE * abs(whole - three):
+        if change.reference is None or change.rom is None or value.reference is None or value.rom is None:
+            continue
+        if _noticeable(change.reference, value.reference):
             changed += 1
-            wrong += [field.label] if three * two <= 0 else []
+            followed = _noticeable(change.rom, value.rom) and change.reference * change.rom > 0
+            wrong += [] if followed else [field.label]
     if not changed:
         return "No cycle quantity changes by more than 0.1 % in 3D."
     if not wrong:
-        return (
-            f"All {changed} cycle quantities that change by more than 0.1 % in 3D change the same way in 2D."
-        )
+        return f"All {changed} cycle quantities that change by more than 0.1 % in 3D do so the same way in 2D."
     return (
         f"Of {changed} cycle quantities that change by more than 0.1 % in 3D, the 2D model changes "
-        f"{len(wrong)} the other way or not at all: {listed(wrong)}."
+        f"{len(wrong)} the other way or by less than 0.1 %: {listed(wrong)}."
     ).replace(" %", SPACE + "%")
 
 
