@@ -7,11 +7,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from solver.errors import ModelError
+from solver.errors import ModelError, NotConverged, RunFailure
 from solver.model import Model, State
 from solver.steady import steady_state
 from solver.stepper import Stepper
 
+SHORTEST_SHARE = 1e-6  # of the largest Δt: below it error control gives up
+SLOWEST_GROWTH, FASTEST_GROWTH = 0.2, 2.0  # of Δt from one step to the next
 DAMPING_RATE = 20.0  # 1/s: θ = ½ + rate·Δt damps the pulse wave and stays second order in time
 
 Progress = Callable[[float, float], None]
@@ -28,9 +30,11 @@ class Snapshot:
     mass_defect : float
         Inflow − outflow − change of volume since the state before, over the inflow.
     steps, sweeps : int
-        Time steps taken so far, and sweeps of their iterations in all.
+        Time steps computed so far, trials of the error control among them, and sweeps of their iterations.
     longest_step : float
         Longest Δt since the state before, s.
+    next_step : float
+        Δt that the error control tries next, s.
     """
 
     state: State
@@ -38,6 +42,7 @@ class Snapshot:
     steps: int
     sweeps: int
     longest_step: float
+    next_step: float
 
 
 @dataclass(frozen=True)
@@ -100,67 +105,88 @@ def snapshots(
     time_step: float,
     initial: State | None = None,
     error_tolerance: float | None = None,
+    first_step: float | None = None,
 ) -> Iterator[Snapshot]:
     """Yield the state at each output time, the first included; a step ends on each.
 
-    Parameters are those of :func:`simulate`. A run continued from any snapshot's state gives the same
-    bits as one that was not interrupted.
+    Parameters are those of :func:`simulate`, and the Δt (s) that the error control tries first. A run
+    continued from any snapshot's state and next step gives the same bits as one that was not interrupted.
     """
     times = checked_times(output_times, time_step)
-    start = initial or steady_state(model, float(model.inlet.signal(times[0])))
+    start = initial.copy() if initial else steady_state(model, float(model.inlet.signal(times[0])))
     start.time = float(times[0])
     stepper = Stepper(model, start)
-    yield Snapshot(stepper.state(), 0.0, 0, 0, 0.0)
-    suggested = time_step
-    for begin, end in pairwise(times):
+    wanted = time_step if first_step is None else first_step
+    yield Snapshot(stepper.state(), 0.0, 0, 0, 0.0, wanted)
+    for begin, end in pairwise(times.tolist()):
         if error_tolerance is None:
             count = max(1, int(np.ceil((end - begin) / time_step * (1 - 1e-12))))
             longest = (end - begin) / count
             defect = stepper.advance_through(begin, longest, count, implicitness(longest))
         else:
-            defect, longest, suggested = _adaptive(stepper, begin, end, time_step, suggested, error_tolerance)
+            defect, longest, wanted = _adaptive(stepper, begin, end, time_step, wanted, error_tolerance)
         stepper.time = float(end)
-        yield Snapshot(stepper.state(), defect, stepper.steps, stepper.sweeps, longest)
+        yield Snapshot(stepper.state(), defect, stepper.steps, stepper.sweeps, longest, wanted)
 
 
 def _adaptive(
-    stepper: Stepper, begin: float, end: float, largest: float, suggested: float, tolerance: float
+    stepper: Stepper, begin: float, end: float, largest: float, wanted: float, tolerance: float
 ) -> tuple[float, float, float]:
     """Go from begin to end with the local error of each step below ``tolerance``.
 
-    One step of Δt is compared with two of Δt/2 (step doubling); the finer result is kept. The scheme is of
-    second order, so a third of their difference estimates its error.
-
     Returns
     -------
-    defect, longest, suggested : float
+    defect, longest, wanted : float
         Mass defect, longest Δt taken and Δt to try next, s.
+
+    Raises
+    ------
+    RunFailure
+        What a step of a millionth of ``largest`` raises, or NotConverged where its error is too large.
     """
-    time, longest, step, volume_defect = begin, 0.0, min(suggested, largest), 0.0
+    time, longest, total = begin, 0.0, 0.0
+    shortest = SHORTEST_SHARE * largest
     while time < end:
         remaining = end - time
-        step = min(step, largest, remaining)
+        step = min(wanted, largest, remaining)
         if remaining - step < 0.01 * step:
             step = remaining
         start = stepper.state()
-        stepper.advance_through(time, step, 1, implicitness(step))
-        coarse = stepper.state()
-        stepper.restore(start)
-        defect = stepper.advance_through(time, 0.5 * step, 2, implicitness(0.5 * step))
-        error = _difference(coarse, stepper.state()) / 3
-        if error > tolerance and step > 1e-6 * largest:
+        try:
+            defect, error = _doubled(stepper, time, step)
+        except RunFailure:
+            if step <= shortest:
+                raise
             stepper.restore(start)
-        else:
-            time += step
-            stepper.time = time
-            longest = max(longest, 0.5 * step)
-            volume_defect += defect
-            suggested = step
-        growth = 0.9 * (tolerance / error) ** (1 / 3) if error > 0 else 2.0
-        step *= min(2.0, max(0.2, growth))
-        if step > suggested:
-            suggested = step
-    return volume_defect, longest, suggested
+            wanted = SLOWEST_GROWTH * step
+            continue
+        growth = 0.9 * (tolerance / error) ** (1 / 3) if error > 0 else FASTEST_GROWTH
+        better = step * min(FASTEST_GROWTH, max(SLOWEST_GROWTH, growth))
+        if error > tolerance:
+            if step <= shortest:
+                raise NotConverged(time, 0, 0, f"no step keeps the error below {tolerance:g}")
+            stepper.restore(start)
+            wanted = better
+            continue
+        time = end if step == remaining else time + step
+        stepper.time = time
+        longest = max(longest, 0.5 * step)
+        total += defect
+        wanted = max(better, wanted) if step < wanted else better
+    return total, longest, min(wanted, largest)
+
+
+def _doubled(stepper: Stepper, time: float, step: float) -> tuple[float, float]:
+    """Take two steps of Δt/2; mass defect, and the error estimated by comparison with one of Δt.
+
+    The scheme is of second order, so a third of their difference estimates the error of the finer one.
+    """
+    start = stepper.state()
+    stepper.advance_through(time, step, 1, implicitness(step))
+    coarse = stepper.state()
+    stepper.restore(start)
+    defect = stepper.advance_through(time, 0.5 * step, 2, implicitness(0.5 * step))
+    return defect, _difference(coarse, stepper.state()) / 3
 
 
 def _difference(one: State, other: State) -> float:
