@@ -49,9 +49,10 @@ def main() -> int:
         file = load_case_file(arguments.case)
         variant = chosen_variant(file, arguments.variant)
         stated = {"case": file.name, "title": file.title, "variant": variant, "case_yaml": file.text}
-        identity = run_identity(file.text, variant)
+        case = file.variants[variant]
+        plot = None if case.reference is None else case.reference.plot_file
+        identity = run_identity(file.text, variant, [path for path in case.input_files if path != plot])
         with progress_bar(f"{file.name} {variant}") as progress:
-            case = file.variants[variant]
             if case.solver.scheme == "godunov":
                 done = run_whole(case, arguments.output, stated, arguments.resume, progress)
             else:

@@ -7,7 +7,7 @@ the whole state at its end. The result is written from the pieces when the last 
 import hashlib
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -32,10 +32,11 @@ Progress = Callable[[float, float], None]
 
 @dataclass(frozen=True)
 class Piece:
-    """Consecutive states of a run, and the state at their end."""
+    """Consecutive states of a run, the state at their end, and the Δt to try from there, s."""
 
     trajectory: Trajectory
     end: State
+    next_step: float
 
 
 def pieces_folder(result: Path) -> Path:
@@ -43,13 +44,34 @@ def pieces_folder(result: Path) -> Path:
     return result.with_name(result.name + ".pieces")
 
 
-def run_identity(text: str, variant: str) -> str:
-    """Digest of what must not change between a run and its continuation."""
+def run_identity(text: str, variant: str, inputs: Iterable[Path]) -> str:
+    """Digest of what must not change between a run and its continuation.
+
+    Parameters
+    ----------
+    text : str
+        The case file.
+    variant : str
+        Name of the variant.
+    inputs : iterable of Path
+        Files that the model is read from besides.
+
+    Raises
+    ------
+    SolverError
+        If one of them cannot be read.
+    """
     try:
         own = version("arterial-rom-validation")
     except PackageNotFoundError:
         own = "unknown"
-    return hashlib.sha256(f"{own}\0{variant}\0{text}".encode()).hexdigest()
+    digest = hashlib.sha256(f"{own}\0{variant}\0{text}".encode())
+    for path in inputs:
+        try:
+            digest.update(b"\0" + path.read_bytes())
+        except OSError as error:
+            raise SolverError(f"{path}: cannot be read: {error.strerror or error}") from error
+    return digest.hexdigest()
 
 
 def run_to_file(
@@ -89,7 +111,8 @@ def run_to_file(
     first = 0 if last is None else int(np.searchsorted(times, last.end.time))
     taken: list[Snapshot] = []
     steps = sweeps = 0
-    walk = snapshots(model, times[first:], case.solver.time_step, start, error_tolerance(case))
+    next_step = None if last is None else last.next_step
+    walk = snapshots(model, times[first:], case.solver.time_step, start, error_tolerance(case), next_step)
     for number, snapshot in enumerate(walk, start=first):
         if last is None or number > first:
             taken.append(snapshot)
@@ -97,7 +120,7 @@ def run_to_file(
         if len(taken) == PIECE or (number == times.size - 1 and taken):
             piece = collect(model, taken)
             own = replace(piece, steps=piece.steps - steps, sweeps=piece.sweeps - sweeps)
-            _write(folder / f"{number:08d}.npz", own, snapshot.state)
+            _write(folder / f"{number:08d}.npz", own, snapshot)
             taken, steps, sweeps = [], piece.steps, piece.sweeps
     attributes = _join(model, sorted(folder.glob("*.npz")), result, attributes)
     shutil.rmtree(folder)
@@ -139,9 +162,10 @@ _ARRAYS = ("times", "area", "pressure", "flow", "mass_defect")
 _NUMBERS = ("steps", "sweeps", "longest_step")
 
 
-def _write(path: Path, trajectory: Trajectory, end: State) -> None:
+def _write(path: Path, trajectory: Trajectory, end: Snapshot) -> None:
     values = {name: getattr(trajectory, name) for name in (*_ARRAYS, *_NUMBERS)}
-    values |= {f"end_{part.name}": getattr(end, part.name) for part in fields(State)}
+    values |= {f"end_{part.name}": getattr(end.state, part.name) for part in fields(State)}
+    values["next_step"] = end.next_step
     partial = path.with_suffix(".part")
     try:
         with partial.open("wb") as stream:
@@ -157,9 +181,10 @@ def _read(model: Model, path: Path) -> Piece:
     with np.load(path) as stored:
         arrays = {name: stored[name] for name in _ARRAYS}
         numbers = {name: stored[name].item() for name in _NUMBERS}
+        next_step = float(stored["next_step"])
         end = {part.name: stored[f"end_{part.name}"] for part in fields(State)}
     end |= {name: float(end[name]) for name in ("time", "reservoir")}
-    return Piece(Trajectory(model=model, **arrays, **numbers), State(**end))
+    return Piece(Trajectory(model=model, **arrays, **numbers), State(**end), next_step)
 
 
 def _join(model: Model, paths: list[Path], result: Path, attributes: dict[str, Any]) -> dict[str, Any]:

@@ -1,0 +1,197 @@
+"""An interrupted run goes on to the very bytes of one that was not."""
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import solver.__main__ as command
+import solver.run as running
+from solver.run import pieces_folder
+
+ROOT = Path(__file__).parents[2]
+BOUNDARIES = {
+    "resistance": "outlet: {kind: resistance, resistance: 1.358e9 Pa s/m^3, offset: 9330 Pa}",
+    "windkessel": "outlet: {kind: windkessel, proximal_resistance: 1e8 Pa s/m^3, "
+    "distal_resistance: 5e9 Pa s/m^3, compliance: 1e-10 m^3/Pa}",
+    "non_reflecting": "outlet: {kind: non_reflecting}",
+}
+
+
+class Interrupting:
+    """Stands for the progress bar; raises KeyboardInterrupt after some states."""
+
+    def __init__(self, after):
+        self.left = after
+
+    def __call__(self, _):
+        return self
+
+    def __enter__(self):
+        return self.told
+
+    def __exit__(self, *_):
+        return None
+
+    def told(self, *_):
+        self.left -= 1
+        if self.left == 0:
+            raise KeyboardInterrupt
+
+
+@pytest.fixture
+def run(monkeypatch, capsys):
+    def with_arguments(*arguments, after=None):
+        monkeypatch.setattr(sys, "argv", ["solver", *map(str, arguments)])
+        with monkeypatch.context() as patched:
+            patched.setattr(running, "PIECE", 4)
+            if after is not None:
+                patched.setattr(command, "progress_bar", Interrupting(after))
+            status = command.main()
+        return status, capsys.readouterr().err
+
+    return with_arguments
+
+
+def changed(case_file, old, new):
+    text = case_file.read_text()
+    assert old in text
+    case_file.write_text(text.replace(old, new))
+
+
+def assert_same_bytes(one, other):
+    with xr.open_dataset(one) as a, xr.open_dataset(other) as b:
+        assert set(a.variables) == set(b.variables)
+        for name in a.variables:
+            assert a[name].dtype == b[name].dtype
+            assert a[name].to_numpy().tobytes() == b[name].to_numpy().tobytes(), name
+            assert a[name].attrs == b[name].attrs
+        assert {k: v for k, v in a.attrs.items() if k != "case_yaml"} == {
+            k: v for k, v in b.attrs.items() if k != "case_yaml"
+        }
+
+
+@pytest.mark.parametrize("control", ["", " error_tolerance: 1e-4,"])
+@pytest.mark.parametrize("outlet", list(BOUNDARIES))
+@pytest.mark.parametrize("after", [3, 11, 20])
+def test_interrupted_and_resumed(run, case_file, outlet, control, after):
+    changed(case_file, BOUNDARIES["resistance"], BOUNDARIES[outlet])
+    changed(case_file, "closure: average,", f"closure: average,{control}")
+    variant = "patch"
+    if outlet == "non_reflecting":  # no flow is steady in front of it, and rows that start from rest part
+        variant = "healthy"
+        changed(case_file, "closure: average,", "closure: average, start: rest,")
+    whole, parts = case_file.with_name("whole.nc"), case_file.with_name("parts.nc")
+    assert run(case_file, "--variant", variant, "--output", whole) == (0, "")
+    status, _ = run(case_file, "--variant", variant, "--output", parts, after=after)
+    assert status == 130
+    assert not parts.exists()
+    kept = sorted(path.name for path in pieces_folder(parts).glob("*.npz"))
+    assert len(kept) == (after - 1) // 4
+    assert run(case_file, "--variant", variant, "--output", parts, "--resume") == (0, "")
+    assert_same_bytes(whole, parts)
+    assert not pieces_folder(parts).exists()
+
+
+def test_interrupted_again_and_again(run, case_file):
+    whole, parts = case_file.with_name("whole.nc"), case_file.with_name("parts.nc")
+    run(case_file, "--variant", "patch", "--output", whole)
+    assert run(case_file, "--variant", "patch", "--output", parts, after=6)[0] == 130
+    for _ in range(3):
+        assert run(case_file, "--variant", "patch", "--output", parts, "--resume", after=6)[0] == 130
+    assert run(case_file, "--variant", "patch", "--output", parts, "--resume")[0] == 0
+    assert_same_bytes(whole, parts)
+
+
+def test_memory_holds_one_piece(run, case_file, monkeypatch):
+    """What is collected at once is a piece, whatever the number of states."""
+    changed(case_file, "cycles: 2", "cycles: 9")
+    sizes = []
+    collect = running.collect
+
+    def counted(model, taken):
+        sizes.append(len(taken))
+        return collect(model, taken)
+
+    monkeypatch.setattr(running, "collect", counted)
+    run(case_file, "--variant", "healthy", "--output", case_file.with_name("run.nc"))
+    assert sum(sizes) == 91
+    assert max(sizes) == 4
+    with xr.open_dataset(case_file.with_name("run.nc")) as result:
+        np.testing.assert_allclose(result["time"], np.arange(91) * 0.02, atol=1e-12)
+
+
+def interrupted(run, case_file):
+    output = case_file.with_name("run.nc")
+    assert run(case_file, "--variant", "patch", "--output", output, after=10)[0] == 130
+    return output
+
+
+def refused(run, case_file, output, variant="patch"):
+    before = {path.name: path.read_bytes() for path in pieces_folder(output).iterdir()}
+    status, errors = run(case_file, "--variant", variant, "--output", output, "--resume")
+    assert status == 2
+    assert errors == (
+        f"{pieces_folder(output)}: belongs to another case, variant or version; run without --resume\n"
+    )
+    assert {path.name: path.read_bytes() for path in pieces_folder(output).iterdir()} == before
+
+
+def test_another_variant_is_refused(run, case_file):
+    refused(run, case_file, interrupted(run, case_file), "healthy")
+
+
+def test_another_case_is_refused(run, case_file):
+    output = interrupted(run, case_file)
+    changed(case_file, "0.003 Pa s", "0.0035 Pa s")
+    refused(run, case_file, output)
+
+
+def test_another_waveform_is_refused(run, case_file):
+    output = interrupted(run, case_file)
+    changed(case_file.with_name("inlet.csv"), "0.05,20", "0.05,21")
+    refused(run, case_file, output)
+
+
+def test_nothing_to_resume(run, case_file):
+    output = case_file.with_name("run.nc")
+    status, errors = run(case_file, "--variant", "patch", "--output", output, "--resume")
+    assert status == 2
+    assert errors == f"{pieces_folder(output)}: no interrupted run to resume; run without --resume\n"
+    assert not pieces_folder(output).exists()
+
+
+def test_a_new_run_does_not_take_up_old_pieces(run, case_file):
+    output = interrupted(run, case_file)
+    changed(case_file, "0.003 Pa s", "0.0035 Pa s")
+    assert run(case_file, "--variant", "patch", "--output", output)[0] == 0
+    whole = case_file.with_name("whole.nc")
+    run(case_file, "--variant", "patch", "--output", whole)
+    assert_same_bytes(whole, output)
+
+
+def test_a_killed_run_goes_on(case_file):
+    """SIGKILL leaves no time to tidy up; a half-written piece is not taken up."""
+    changed(case_file, "cycles: 2", "cycles: 60")
+    outputs = [case_file.with_name(name) for name in ("whole.nc", "killed.nc")]
+
+    def arguments(output):
+        return [sys.executable, "-m", "solver", case_file, "--variant", "patch", "--output", output]
+
+    killed = subprocess.Popen(arguments(outputs[1]), cwd=ROOT, stderr=subprocess.DEVNULL)  # noqa: S603
+    while len(list(pieces_folder(outputs[1]).glob("*.npz"))) < 2 and killed.poll() is None:
+        time.sleep(0.002)
+    killed.kill()
+    assert killed.wait() == -signal.SIGKILL
+    assert not outputs[1].exists()
+    (pieces_folder(outputs[1]) / "00000599.part").write_bytes(b"half a piece")
+    subprocess.run(arguments(outputs[0]), cwd=ROOT, check=True, capture_output=True)  # noqa: S603
+    resumed = [*arguments(outputs[1]), "--resume"]
+    subprocess.run(resumed, cwd=ROOT, check=True, capture_output=True)  # noqa: S603
+    assert_same_bytes(*outputs)
+    assert not pieces_folder(outputs[1]).exists()
