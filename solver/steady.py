@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from solver.boundary import ResistanceOutlet
+from solver.boundary import NonReflectingOutlet, ResistanceOutlet
 from solver.errors import ModelError, NotConverged, RunFailure
 from solver.model import Model, State, uniform_state
 from solver.schemes.layout import REST_VELOCITY
@@ -26,6 +26,8 @@ def _guess(model: Model, inlet_value: float) -> State:
         return uniform_state(model, offset + model.outlet.resistance * velocity * section, velocity)
     if kind == "pressure":
         return uniform_state(model, inlet_value, velocity)
+    if isinstance(model.outlet, NonReflectingOutlet):
+        return uniform_state(model, model.reference_pressure, velocity)
     venous = getattr(model.outlet, "venous_pressure", offset)
     drop = getattr(model.outlet, "proximal_resistance", 0.0) + getattr(model.outlet, "distal_resistance", 0.0)
     return uniform_state(model, venous + drop * velocity * section, velocity)
