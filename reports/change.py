@@ -146,7 +146,7 @@ def _signs(comparison: Comparison, variant: str) -> str:
     if not changed:
         return "No cycle quantity changes by more than 0.1 % in 3D."
     if not wrong:
-        return f"All {changed} cycle quantities that change by more than 0.1 % in 3D do so the same way in 2D."
+        return f"All {changed} cycle quantities that change by over 0.1 % in 3D do so the same way in 2D."
     return (
         f"Of {changed} cycle quantities that change by more than 0.1 % in 3D, the 2D model changes "
         f"{len(wrong)} the other way or by less than 0.1 %: {listed(wrong)}."
