@@ -187,7 +187,8 @@ def test_windkessels_that_are_refused(values, message):
 
 
 def test_rest_in_front_of_a_non_reflecting_outlet_is_at_the_reference_pressure():
-    model = artery(12, 8, reference_pressure=8e3, outlet=NonReflectingOutlet(), patch=PATTERNS["local, sharp"])
+    patch = PATTERNS["local, sharp"]
+    model = artery(12, 8, reference_pressure=8e3, outlet=NonReflectingOutlet(), patch=patch)
     state = steady_state(model, 0.0)
     np.testing.assert_allclose(state.pressure, 8e3, rtol=1e-12)
     np.testing.assert_allclose(state.area, 2.5e-3**2, rtol=1e-12)
