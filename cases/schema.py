@@ -221,7 +221,6 @@ def _refuse_endless_runs(solver: Solver, inlet: Inlet) -> None:
 
 
 def _default_start(inlet: Inlet, outlet: Outlet) -> Start:
-    """Return rest where a ramp leads away from it, or where the boundaries determine no flow."""
+    """Return rest where a ramp leads away from it, or where the outlet lets no steady state settle."""
     ramped = inlet.ramp is not None or (isinstance(outlet, ResistanceOutlet) and outlet.ramp is not None)
-    undetermined = isinstance(inlet, PressureInlet) and isinstance(outlet, NonReflectingOutlet)
-    return "rest" if ramped or undetermined else "steady"
+    return "rest" if ramped or isinstance(outlet, NonReflectingOutlet) else "steady"

@@ -44,8 +44,7 @@ class SolverSettings(Section):
         How the velocity profile closes the equations.
     start : str
         ``steady``: from the steady state of the boundary values at t = 0; ``rest``: from blood at rest. Where
-        none is stated, a `Case` sets rest if a boundary has a ramp, or a pressure inlet a non-reflecting
-        outlet.
+        none is stated, a `Case` sets rest if a boundary has a ramp, or the outlet is non-reflecting.
     output_interval : float or None
         Time between saved states in s, at least the time step.
     """

@@ -85,7 +85,7 @@ PRESSURE_INLET = "{kind: pressure, value: 1 kPa}"
     ("inlet", "outlet", "start"),
     [
         (INLET, OUTLET, "steady"),
-        (INLET, "{kind: non_reflecting}", "steady"),
+        (INLET, "{kind: non_reflecting}", "rest"),
         (PRESSURE_INLET, OUTLET, "steady"),
         (PRESSURE_INLET, "{kind: non_reflecting}", "rest"),
         (INLET.replace("}", ", ramp: 8 ms}"), OUTLET, "rest"),
