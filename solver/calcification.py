@@ -31,9 +31,10 @@ class Patch:
     phi_transition: float | None = None
 
 
-def _distance_to_interval(
+def distance_to_interval(
     value: NDArray[np.float64], first: float, last: float, period: float | None
 ) -> NDArray[np.float64]:
+    """Distance of values to an interval, 0 inside; periodic if a period is given."""
     middle, half = 0.5 * (first + last), 0.5 * (last - first)
     offset = value - middle
     if period is not None:
@@ -42,6 +43,11 @@ def _distance_to_interval(
     # a centre on the edge belongs to the patch, whatever round-off says
     on_edge = ROUND_OFF * max(abs(first), abs(last))
     return np.where(distance > on_edge, distance, 0.0)
+
+
+def distance_around(phi: NDArray[np.float64], first: float, last: float) -> NDArray[np.float64]:
+    """Angle from φ to the arc that runs from ``first`` to ``last`` in positive direction, rad."""
+    return distance_to_interval(phi, first, last if last > first else last + 2 * np.pi, 2 * np.pi)
 
 
 def _scaled(distance: NDArray[np.float64], length: float | None) -> NDArray[np.float64]:
@@ -58,13 +64,11 @@ def scaled_distance(grid: Grid, patch: Patch) -> NDArray[np.float64]:
     ndarray (n_x, n_phi)
         0 inside, 1 and more in the healthy wall; infinite outside a sharp edge.
     """
-    along = _scaled(_distance_to_interval(grid.x, *patch.x, period=None), patch.x_transition)
+    along = _scaled(distance_to_interval(grid.x, *patch.x, period=None), patch.x_transition)
     if patch.phi is None:
         around = np.zeros(grid.n_phi)
     else:
-        first, last = patch.phi
-        last = last if last > first else last + 2 * np.pi
-        around = _scaled(_distance_to_interval(grid.phi, first, last, 2 * np.pi), patch.phi_transition)
+        around = _scaled(distance_around(grid.phi, *patch.phi), patch.phi_transition)
     return np.hypot(along[:, None], around[None, :])
 
 

@@ -10,6 +10,7 @@ from solver.errors import ModelError
 from solver.grid import Grid
 from solver.schemes import godunov_layout as layout
 from solver.smooth_wall import SmoothWall
+from solver.waveform import load_curve
 
 Floats = NDArray[np.float64]
 Signal = Callable[[Floats], Floats]
@@ -39,12 +40,7 @@ def held(value: float) -> Signal:
 
 def load(begin: float, end: float, first: float, last: float) -> Signal:
     """Load curve (2.3.1): ``first`` until ``begin`` (s), ``last`` from ``end`` on, a cosine between."""
-
-    def curve(times: Floats) -> Floats:
-        share = np.clip((times - begin) / (end - begin), 0.0, 1.0)
-        return np.asarray(first + (last - first) * (0.5 - 0.5 * np.cos(np.pi * share)))
-
-    return curve
+    return lambda times: load_curve(times, begin, end, first, last)
 
 
 @dataclass(frozen=True)

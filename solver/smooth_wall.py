@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.calcification import Patch
+from solver.calcification import Patch, distance_around
 from solver.errors import ModelError
 from solver.grid import Grid
 
@@ -68,7 +68,4 @@ def _distance_around(grid: Grid, patch: Patch) -> Floats:
     """Scaled distance of each row to the patch, periodic, (n_phi,)."""
     if patch.phi is None or patch.phi_transition is None:
         return np.zeros(grid.n_phi)
-    first, last = patch.phi
-    half = 0.5 * ((last - first) % (2 * np.pi))
-    offset = (grid.phi - (first + half) + np.pi) % (2 * np.pi) - np.pi
-    return np.asarray(np.maximum(np.abs(offset) - half, 0.0) / patch.phi_transition)
+    return distance_around(grid.phi, *patch.phi) / patch.phi_transition

@@ -25,6 +25,7 @@ from validation.plot_file import (
     pressure_reader,
     require,
 )
+from validation.provenance import shown_path
 from validation.rays import Rays
 from validation.reference import Progress, Reference
 
@@ -173,7 +174,7 @@ def _each(mapped: list[MappedState], name: str) -> NDArray[np.float64]:
 def _description(plot: Plot, alignment: Alignment) -> dict[str, Any]:
     return {
         "kind": "febio",
-        "file": str(plot.path),
+        "file": shown_path(plot.path),
         "software": plot.software,
         "version": f"{plot.version:#06x}",
         "nodes": len(plot.mesh.coordinates),

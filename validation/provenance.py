@@ -32,6 +32,12 @@ def checksum(path: Path) -> str:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
+def shown_path(path: Path) -> str:
+    """Path relative to the current directory if it lies below it, so that a result tells no one's folders."""
+    place = path.resolve()
+    return str(place.relative_to(Path.cwd()) if place.is_relative_to(Path.cwd()) else place)
+
+
 def git_commit(folder: Path) -> str | None:
     """Commit of the checkout that holds ``folder``, with "+" where files differ from it; None outside git."""
     try:
@@ -67,7 +73,7 @@ def provenance(case: Path, inputs: Iterable[Path], command: list[str]) -> dict[s
         The command line that repeats the run.
     """
     listed = [
-        {"path": str(path), "sha256": checksum(path), "bytes": path.stat().st_size}
+        {"path": shown_path(path), "sha256": checksum(path), "bytes": path.stat().st_size}
         for path in dict.fromkeys(inputs)
     ]
     return {
@@ -83,6 +89,6 @@ def provenance(case: Path, inputs: Iterable[Path], command: list[str]) -> dict[s
             "cores": os.cpu_count(),
             "byte_order": sys.byteorder,
         },
-        "case": {"path": str(case), "sha256": checksum(case)},
+        "case": {"path": shown_path(case), "sha256": checksum(case)},
         "inputs": listed,
     }
