@@ -1,6 +1,6 @@
 """Tables of both models' values at chosen cells and instants."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from reports.blocks import Column, Table
 from reports.load import Comparison
@@ -9,8 +9,6 @@ from reports.numbers import DIFFERENCE_UNITS, decimals_for, fixed
 from reports.words import field_of, instant
 
 _MOST_COLUMNS = 5  # cells side by side on a page
-
-Lookup = Callable[[int], Row | None]
 
 
 def chunks(cells: Sequence[int]) -> Iterator[tuple[int, ...]]:

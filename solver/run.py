@@ -7,7 +7,7 @@ the whole state at its end. The result is written from the pieces when the last 
 import hashlib
 import os
 import shutil
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -23,11 +23,9 @@ from solver.files import write_netcdf
 from solver.from_case import default_output_times, error_tolerance, initial_state, model_of
 from solver.model import Model, State
 from solver.result import to_dataset
-from solver.simulate import Snapshot, Trajectory, collect, snapshots
+from solver.simulate import Progress, Snapshot, Trajectory, collect, snapshots
 
 PIECE = 25  # states
-
-Progress = Callable[[float, float], None]
 
 
 @dataclass(frozen=True)
