@@ -17,7 +17,7 @@ from solver.model import Model, State
 from solver.schemes import layout
 from solver.schemes.semi_implicit import advance
 
-TOLERANCE = 1e-8  # relative change of P and Q (root mean square) at which a step's iteration ends
+TOLERANCE = 3e-8  # relative error of P and Q (root mean square) at which a step's iteration ends
 MAX_SWEEPS = 60
 
 INLETS = {
@@ -154,6 +154,8 @@ def parameters(model: Model) -> layout.Parameters:
         venous = outlet.venous_pressure
     elif isinstance(outlet, NonReflectingOutlet):
         kind = layout.NON_REFLECTING
+    compliance = layout.aligned((model.grid.n_x, model.grid.n_phi))
+    compliance[...] = model.radius**2 / model.stiffness
     return layout.Parameters(
         dx=float(model.grid.dx),
         dphi=float(model.grid.dphi),
@@ -161,7 +163,7 @@ def parameters(model: Model) -> layout.Parameters:
         reference_pressure=float(model.reference_pressure),
         density=float(model.density),
         kinematic_viscosity=float(model.viscosity / model.density),
-        compliance=np.ascontiguousarray(model.radius**2 / model.stiffness, dtype=float),
+        compliance=compliance,
         table=np.zeros((model.grid.n_x, model.grid.n_phi, 0, 2)) if table is None else table.values,
         table_start=0.0 if table is None else float(table.start),
         table_step=1.0 if table is None else float(table.step),
@@ -203,11 +205,11 @@ def fields_of(model: Model, state: State) -> layout.Fields:
     if reservoir is None:
         proximal = getattr(model.outlet, "proximal_resistance", 0.0)
         reservoir = float(np.mean(outlet)) - proximal * section
-    arrays = [
-        np.array(part, dtype=float, order="C")
-        for part in (state.area, state.flow, pressure, inlet, outlet, [reservoir])
-    ]
-    return layout.Fields(*arrays)
+    parts = (state.area, state.flow, pressure, inlet, outlet, np.array([reservoir]))
+    fields = layout.Fields(*(layout.aligned(part.shape) for part in parts))
+    for target, part in zip(fields, parts, strict=True):
+        target[...] = part
+    return fields
 
 
 def _outlet_pressure(model: Model, state: State, pressure: Floats, section: float) -> Floats:

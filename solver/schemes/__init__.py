@@ -4,4 +4,4 @@ from solver.kernel_cache import keep_kernels
 from solver.schemes import vectorisation
 
 keep_kernels()
-vectorisation.allow_overlap_checks()
+vectorisation.compare_rows()

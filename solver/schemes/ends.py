@@ -1,7 +1,6 @@
 """Inlet and outlet of the semi-implicit scheme: half cells and boundary laws (numba kernels)."""
 
 import numpy as np
-from numba import njit
 
 from solver.schemes.layout import (
     FLOW_INLET,
@@ -17,76 +16,80 @@ from solver.schemes.layout import (
     Stepping,
     Workspace,
 )
-from solver.schemes.profile import mean
-from solver.schemes.walls import wall_row
+from solver.schemes.profile import wrap
+from solver.schemes.vectorisation import inlined_kernel, kernel, summing_kernel
+from solver.schemes.walls import wall_area
 
 INLET, OUTLET = 0, 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@summing_kernel
 def section_flow(p: Parameters, flow: Array) -> float:
     """Flow rate of a section ½∮Q dφ from its rows, m³/s."""
-    return 0.5 * p.dphi * flow.size * mean(flow)
+    total = 0.0
+    for j in range(flow.size):
+        total += flow[j]
+    return 0.5 * p.dphi * total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
+def _end_wall(p: Parameters, ws: Workspace, end: int, pressure: Array, area: Array) -> tuple[int, int, int]:
+    """Apply the wall law of the cells at an end to a row of pressures; status, i, j."""
+    first = 0 if end == INLET else ws.mean_area.shape[0] - 1
+    rows = (1, pressure.size)
+    slope = ws.end_slope[end]
+    return wall_area(p, first, pressure.reshape(rows), area.reshape(rows), slope.reshape(rows))
+
+
+@inlined_kernel
 def old_end_areas(p: Parameters, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
     """Apply the wall law to the old end pressures; status, i, j."""
-    last = fields.area.shape[0] - 1
-    status, j = wall_row(p, last, fields.outlet_pressure, ws.old_end_area[OUTLET], ws.end_slope[OUTLET])
+    status, i, j = _end_wall(p, ws, OUTLET, fields.outlet_pressure, ws.old_end_area[OUTLET])
     if status != OK or p.inlet_kind != PRESSURE_INLET:
-        return status, last, j
-    status, j = wall_row(p, 0, fields.inlet_pressure, ws.old_end_area[INLET], ws.end_slope[INLET])
-    return status, 0, j
+        return status, i, j
+    return _end_wall(p, ws, INLET, fields.inlet_pressure, ws.old_end_area[INLET])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def end_areas(p: Parameters, ws: Workspace, theta: float) -> tuple[int, int, int]:
-    """θ-weighted A at the ends from the iterate's end pressures; status, i, j."""
-    last = ws.mean_area.shape[0] - 1
-    status, j = wall_row(p, last, ws.end_pressure[OUTLET], ws.end_area[OUTLET], ws.end_slope[OUTLET])
-    if status != OK:
-        return status, last, j
-    old, new = ws.old_end_area, ws.end_area
-    for j in range(new.shape[1]):
-        new[OUTLET, j] = (1.0 - theta) * old[OUTLET, j] + theta * new[OUTLET, j]
-    if p.inlet_kind != PRESSURE_INLET:
-        return OK, 0, 0
-    status, j = wall_row(p, 0, ws.end_pressure[INLET], ws.end_area[INLET], ws.end_slope[INLET])
-    if status != OK:
-        return status, 0, j
-    for j in range(new.shape[1]):
-        new[INLET, j] = (1.0 - theta) * old[INLET, j] + theta * new[INLET, j]
+    """Mean A at the ends from the iterate's end pressures; status, i, j."""
+    for end in (OUTLET, INLET):
+        if end == INLET and p.inlet_kind != PRESSURE_INLET:
+            continue
+        status, i, j = _end_wall(p, ws, end, ws.end_pressure[end], ws.end_area[end])
+        if status != OK:
+            return status, i, j
+        for k in range(ws.end_area.shape[1]):
+            ws.end_area[end, k] = (1.0 - theta) * ws.old_end_area[end, k] + theta * ws.end_area[end, k]
     return OK, 0, 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def extrapolated(first: Array, second: Array, value: Array) -> None:
-    """Value half a cell beyond the first of two rows."""
-    for j in range(value.size):
-        value[j] = 1.5 * first[j] - 0.5 * second[j]
+@kernel
+def face_areas(mean_area: Array, end_area: Array, inlet_kind: int, area: Array) -> None:
+    """Mean areas of all faces, with ghosts: half-way between cells, at the ends from the end's pressure.
+
+    At a velocity or flow inlet, which has no pressure of its own, half a cell beyond the first two cells.
+    """
+    n_x, n_phi = mean_area.shape
+    for f in range(1, n_x):
+        for j in range(n_phi):
+            area[f, j + 1] = 0.5 * (mean_area[f - 1, j] + mean_area[f, j])
+    for j in range(n_phi):
+        area[n_x, j + 1] = end_area[OUTLET, j]
+        if inlet_kind == PRESSURE_INLET:
+            area[0, j + 1] = end_area[INLET, j]
+        else:
+            area[0, j + 1] = 1.5 * mean_area[0, j] - 0.5 * mean_area[1, j]
+    for f in range(n_x + 1):
+        wrap(area, f)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def face_area(mean_area: Array, end_area: Array, inlet_kind: int, f: int, area: Array) -> None:
-    """θ-weighted area of face f, without ghosts."""
-    n_x = mean_area.shape[0]
-    if 0 < f < n_x:
-        left, right = mean_area[f - 1], mean_area[f]
-        for j in range(area.size):
-            area[j] = 0.5 * (left[j] + right[j])
-    elif f == n_x:
-        area[:] = end_area[OUTLET]
-    elif inlet_kind == PRESSURE_INLET:
-        area[:] = end_area[INLET]
-    else:
-        extrapolated(mean_area[0], mean_area[1], area)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def inlet_flow(p: Parameters, ws: Workspace, value: float, flow: Array) -> None:
     """Q' = vA' of a velocity inlet, or with v = q/½∮A' dφ of a flow inlet, at the iterate's area."""
-    extrapolated(ws.iterate_area[0], ws.iterate_area[1], flow)
+    area = ws.iterate_area
+    for j in range(flow.size):
+        flow[j] = 1.5 * area[0, j] - 0.5 * area[1, j]
     velocity = value
     if p.inlet_kind == FLOW_INLET:
         velocity = value / section_flow(p, flow)
@@ -94,7 +97,7 @@ def inlet_flow(p: Parameters, ws: Workspace, value: float, flow: Array) -> None:
         flow[j] *= velocity
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def inlet_slopes(p: Parameters, value: float) -> tuple[float, float]:
     """∂Q'/∂A of the first two cells at a velocity inlet, m/s; 0 at others."""
     if p.inlet_kind == VELOCITY_INLET:
@@ -102,37 +105,32 @@ def inlet_slopes(p: Parameters, value: float) -> tuple[float, float]:
     return 0.0, 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def half_cell(
-    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, f: int, flux: Array, end: int
-) -> None:
-    """Momentum of the half cell at an end: G and κ of face f; ``flux`` is the end cell's αQ²/A."""
+@inlined_kernel
+def half_cell(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, end: int) -> None:
+    """Momentum of the half cell at an end: G and κ of its face."""
     theta, dt, half = s.theta, s.time_step, 0.5 * p.dx
-    i = f if end == INLET else f - 1
-    out = -1.0 if end == INLET else 1.0  # direction from the cell to the face
+    n_x, n_phi = ws.mean_area.shape
+    f, i, out = (0, 0, -1.0) if end == INLET else (n_x, n_x - 1, 1.0)  # out: from the cell to the face
     old_end = fields.inlet_pressure if end == INLET else fields.outlet_pressure
-    old_flow, new_flow, damping = fields.flow[f], ws.iterate_flow[f], ws.damping[f]
-    for j in range(flux.size):
-        area = ws.end_area[end, j]
-        q = (1.0 - theta) * old_flow[j] + theta * new_flow[j]
+    for j in range(n_phi):
+        area, q, damping = ws.end_area[end, j], ws.mean_flow[f, j], ws.damping[f, j]
         end_flux = ws.alpha[f, j] * q * q / area
         drive = dt * area / (p.density * half)
-        old = old_end[j] - fields.pressure[i, j]
-        new = ws.end_pressure[end, j] - ws.iterate_pressure[i, j]
-        advection = out * dt / half * (end_flux - flux[j])
-        inverse = 1.0 / (1.0 - theta * damping[j])
-        rest = old_flow[j] * (1.0 + (1.0 - theta) * damping[j]) - advection
-        difference = out * ((1.0 - theta) * old + theta * new)
+        end_mean = (1.0 - theta) * old_end[j] + theta * ws.end_pressure[end, j]
+        advection = out * dt / half * (end_flux - ws.momentum_flux[i, j])
+        inverse = 1.0 / (1.0 - theta * damping)
+        rest = fields.flow[f, j] * (1.0 + (1.0 - theta) * damping) - advection
+        difference = out * (end_mean - ws.mean_pressure[i, j])
         ws.explicit_flow[f, j] = (rest - drive * difference) * inverse
         ws.conductance[f, j] = theta * drive * inverse
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def outlet_law(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, offset: float) -> None:
     """Write the outlet as P' = a + b × flow of the section or the row, into ``law``."""
     a, b = ws.law[0], ws.law[1]
     if p.outlet_kind == NON_REFLECTING:
-        _non_reflecting_law(p, s, ws, fields)
+        _non_reflecting_law(p, ws, fields)
         return
     if p.outlet_kind == WINDKESSEL:
         gain = s.time_step / p.capacitance
@@ -148,21 +146,21 @@ def outlet_law(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, offset
         a[j], b[j] = offset, p.resistance
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _non_reflecting_law(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
+@inlined_kernel
+def _non_reflecting_law(p: Parameters, ws: Workspace, fields: Fields) -> None:
     """No wave enters: Q' − Q − Δt S Q = λ₊ (A' − A) (2.2.41), with A' − A = dA/dP (P' − P)."""
     f = fields.flow.shape[0] - 1
     a, b = ws.law[0], ws.law[1]
     for j in range(a.size):
         area, slope, alpha = ws.end_area[OUTLET, j], ws.end_slope[OUTLET, j], ws.alpha[f, j]
-        q = (1.0 - s.theta) * fields.flow[f, j] + s.theta * ws.iterate_flow[f, j]
+        q = ws.mean_flow[f, j]
         u = q / area
         wave = alpha * u + np.sqrt(area / (p.density * slope) + u * u * alpha * (alpha - 1.0))
         b[j] = 1.0 / (wave * slope)
         a[j] = fields.outlet_pressure[j] - b[j] * (fields.flow[f, j] + ws.damping[f, j] * q)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def close_outlet(p: Parameters, s: Stepping, ws: Workspace) -> None:
     """Solve the outlet law for P_out' and close the last cell of every row.
 
@@ -191,7 +189,7 @@ def close_outlet(p: Parameters, s: Stepping, ws: Workspace) -> None:
             _close_last_cell(ws, j, c, gap / (1.0 + b[0] * total_slope))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _close_last_cell(ws: Workspace, j: int, c: float, change: float) -> None:
     n_x = ws.mean_area.shape[0]
     k = ws.conductance[n_x, j]
@@ -201,7 +199,7 @@ def _close_last_cell(ws: Workspace, j: int, c: float, change: float) -> None:
     ws.explicit_flow[n_x, j] -= k * (change - closed)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def update_reservoir(p: Parameters, fields: Fields, new_flow: Array) -> None:
     """Pressure of the Windkessel's capacitor after the step: P_c' = P' − R₁ q'."""
     if p.outlet_kind == WINDKESSEL:

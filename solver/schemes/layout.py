@@ -15,6 +15,7 @@ BEYOND_WALL_TABLE = 5
 VELOCITY_INLET, FLOW_INLET, PRESSURE_INLET = 0, 1, 2
 SECTION_RESISTANCE, ROW_RESISTANCE, WINDKESSEL, NON_REFLECTING = 0, 1, 2, 3
 
+CACHE_LINE = 64  # bytes
 REST_VELOCITY = 1e-9  # m/s: a section slower than this is at rest and has γ = 2
 
 Array = NDArray[np.float64]
@@ -91,36 +92,49 @@ class Fields(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Scratch of a run; (n_x, n_phi) at cells, (n_x + 1, n_phi) on faces, (n_phi,) per row."""
+    """Scratch of a run; (n_x, n_phi) at cells, (n_x + 1, n_phi) on faces, (n_phi,) per row.
+
+    A mean is the θ-weighted one of the old state and the iterate.
+    """
 
     iterate_pressure: Array  # cells: P of the iterate
     iterate_area: Array  # cells
     area_slope: Array  # cells: dA/dP of the iterate
-    mean_area: Array  # cells: θ-weighted
+    mean_area: Array  # cells
+    mean_pressure: Array  # cells
+    held_area: Array  # cells: A' if Q' were 0
     momentum_flux: Array  # cells: αQ²/A
     correction: Array  # cells: P' − P of the iterate
     inverse_pivot: Array  # cells
     iterate_flow: Array  # faces
+    mean_flow: Array  # faces
     alpha: Array  # faces
     damping: Array  # faces: Δt S
-    explicit_flow: Array  # faces: G at the iterate's pressure, then Q'
+    explicit_flow: Array  # faces: G at the iterate's pressure
     conductance: Array  # faces: κ
-    older_pressure: Array  # cells: one step earlier, for the first iterate
-    oldest_pressure: Array  # cells: two steps earlier
-    older_flow: Array  # faces
-    oldest_flow: Array  # faces
+    inverse_area: Array  # faces
+    velocity: Array  # faces
+    face_area: Array  # (n_x + 1, n_phi + 2): mean, with periodic ghosts
+    inverse_share: Array  # (n_x + 1, n_phi + 2): D/u, with periodic ghosts
+    axis_velocity: Array  # (n_x + 1,): D
     end_pressure: Array  # (2, n_phi): the iterate's at inlet and outlet
-    end_area: Array  # (2, n_phi): θ-weighted, from the end pressures
+    end_area: Array  # (2, n_phi): mean, from the end pressures
     old_end_area: Array  # (2, n_phi)
     end_slope: Array  # (2, n_phi): dA/dP
     law: Array  # (2, n_phi): outlet pressure = law[0] + law[1] × flow
-    ghosted: Array  # (2, n_phi + 2): A and 1/γ of one face, with periodic ghosts
-    row: Array  # (2, n_phi): 1/A and u of one face
     exchanged: Array  # (2,): volumes that passed inlet and outlet since last reset, m³
+
+
+def aligned(shape: tuple[int, ...]) -> Array:
+    """Zeros that begin on a cache line, so that no vector of a row straddles two."""
+    size = int(np.prod(shape))
+    buffer = np.zeros(size + CACHE_LINE // 8)
+    start = -buffer.ctypes.data % CACHE_LINE // 8
+    return buffer[start : start + size].reshape(shape)
 
 
 def workspace(n_x: int, n_phi: int) -> Workspace:
     """Allocate the scratch of a run."""
-    cells, faces, pair = (n_x, n_phi), (n_x + 1, n_phi), (2, n_phi)
-    shapes = [cells] * 7 + [faces] * 5 + [cells] * 2 + [faces] * 2 + [pair] * 5 + [(2, n_phi + 2), pair]
-    return Workspace(*(np.zeros(shape) for shape in [*shapes, (2,)]))
+    cells, faces, ghosted = (n_x, n_phi), (n_x + 1, n_phi), (n_x + 1, n_phi + 2)
+    shapes = [*[cells] * 9, *[faces] * 8, *[ghosted] * 2, (n_x + 1,), *[(2, n_phi)] * 5, (2,)]
+    return Workspace(*(aligned(shape) for shape in shapes))

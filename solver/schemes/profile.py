@@ -1,97 +1,159 @@
-"""Velocity profiles on one face: u, the closure's D, α and the viscous source S (numba kernels)."""
+"""Velocity profiles on the faces: u, the closure's D, α and the viscous source S (numba kernels).
 
-from numba import njit
+With s = u/D the closure γ = 2u/(D − u) gives α = 2/(1+s), ½γ+1 = 1/(1−s) and 1 + 2/γ = 1/s, all from one
+division by s(1−s)(1+s).
 
-from solver.schemes.layout import REST_VELOCITY, Array
+The kernels index whole arrays, ``values[f, j]``: making a view of each row costs more than the work on it.
+"""
 
+from solver.schemes.layout import NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY, Array
+from solver.schemes.vectorisation import kernel, summing_kernel
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc"})
-def mean(values: Array) -> float:
-    """Mean of a row; summed in an order that vectorises."""
-    total = 0.0
-    for j in range(values.size):
-        total += values[j]
-    return total / values.size
+POISEUILLE = 2.0  # γ of a section at rest: the limit of slow equal rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def wrap(row: Array) -> None:
+@kernel
+def wrap(values: Array, f: int) -> None:
     """Fill the two ghosts of a periodic row."""
-    row[0] = row[row.size - 2]
-    row[row.size - 1] = row[1]
+    last = values.shape[1] - 1
+    values[f, 0] = values[f, last - 1]
+    values[f, last] = values[f, 1]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def all_admissible(velocity: Array, axis_velocity: float) -> bool:
-    """Whether 0 < u/D < 1 in every row, so that γ = 2u/(D − u) is positive."""
-    d = abs(axis_velocity)
-    sign = 1.0 if axis_velocity > 0.0 else -1.0
+@summing_kernel
+def _velocities(f: int, flow: Array, area: Array, inverse_area: Array, velocity: Array) -> float:
+    """1/A and u = Q/A of one face; D = 2 mean_φ(u), summed in an order that vectorises."""
+    total = 0.0
+    n_phi = flow.shape[1]
+    for j in range(n_phi):
+        inverse_area[f, j] = 1.0 / area[f, j + 1]
+        velocity[f, j] = flow[f, j] * inverse_area[f, j]
+        total += velocity[f, j]
+    return float(2.0 * total / n_phi)
+
+
+@kernel
+def _exponents(
+    f: int, axis_velocity: float, velocity: Array, inverse_share: Array, alpha: Array, friction: Array
+) -> bool:
+    """D/u, α and ½γ+1 of one face; whether 0 < u/D < 1 in every row, so that γ is positive."""
+    admissible = 0
+    scale = 1.0 / axis_velocity
+    n_phi = velocity.shape[1]
+    for j in range(n_phi):
+        s = velocity[f, j] * scale
+        rest = (1.0 - s) * (1.0 + s)
+        inverse = 1.0 / (s * rest)
+        inverse_share[f, j + 1] = rest * inverse
+        inverse_rest = s * inverse
+        alpha[f, j] = (2.0 - 2.0 * s) * inverse_rest
+        friction[f, j] = (1.0 + s) * inverse_rest
+        admissible += (s > 0.0) & (s < 1.0)
+    return bool(admissible == n_phi)
+
+
+@kernel
+def _at_rest(velocity: Array, f: int) -> bool:
+    """Whether every row of a face is slower than the rest velocity."""
     count = 0
-    for j in range(velocity.size):
-        u = sign * velocity[j]
-        count += (u > 0.0) & (u < d)
-    return count == velocity.size
+    for j in range(velocity.shape[1]):
+        count += abs(velocity[f, j]) < REST_VELOCITY
+    return bool(count == velocity.shape[1])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def at_rest(velocity: Array) -> bool:
-    """Whether every row is slower than the rest velocity."""
-    count = 0
-    for j in range(velocity.size):
-        count += abs(velocity[j]) < REST_VELOCITY
-    return count == velocity.size
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def inadmissible_row(velocity: Array, axis_velocity: float) -> int:
-    """First row with |u| ≥ |D| or u against D."""
-    for j in range(velocity.size):
-        if not 0.0 < velocity[j] / axis_velocity < 1.0:
+@kernel
+def _inadmissible_row(f: int, velocity: Array, axis_velocity: float) -> int:
+    """First row with u/D outside ]0, 1[."""
+    for j in range(velocity.shape[1]):
+        if not 0.0 < velocity[f, j] / axis_velocity < 1.0:
             return j
     return 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def closure_source(
-    alpha: Array,
-    damping: Array,
+@kernel
+def _closure_source(
+    f: int, area: Array, inverse_area: Array, inverse_share: Array, scale: float, dphi: float, source: Array
+) -> None:
+    """Δt S of one face, h as in model.md with 1/γ differenced; ``source`` holds ½γ+1 before.
+
+    h is 2(μ/ρ)(1 + 2/γ)/A times ½∂²A/A − ½(½γ+1)(∂A/A)² − ∂²(1/γ), derivatives by φ; 1/γ is half of D/u − 1.
+    """
+    second = 1.0 / (dphi * dphi)
+    for j in range(source.shape[1]):
+        a, share, friction = inverse_area[f, j], inverse_share[f, j + 1], source[f, j]
+        difference = (area[f, j + 2] - area[f, j]) * a
+        bend = (area[f, j + 2] + area[f, j] - 2.0 * area[f, j + 1]) * a
+        share_bend = inverse_share[f, j + 2] + inverse_share[f, j] - 2.0 * share
+        bracket = bend - share_bend - 0.25 * friction * difference * difference
+        source[f, j] = scale * a * (second * share * bracket - 4.0 * friction)
+
+
+@kernel
+def _fixed_source(f: int, area: Array, exponent: float, scale: float, alpha: Array, source: Array) -> None:
+    """α and Δt S of one face for a given γ, friction only."""
+    for j in range(source.shape[1]):
+        alpha[f, j] = (exponent + 2.0) / (exponent + 1.0)
+        source[f, j] = -2.0 * (exponent + 2.0) * scale / area[f, j + 1]
+
+
+@kernel
+def fixed_sources(area: Array, exponent: float, scale: float, alpha: Array, source: Array) -> None:
+    """α and Δt S of all faces for a given γ: the 1D model; arguments as :func:`closure_sources`."""
+    for f in range(source.shape[0]):
+        _fixed_source(f, area, exponent, scale, alpha, source)
+
+
+@kernel
+def closure_sources(
+    flow: Array,
     area: Array,
-    inverse_area: Array,
-    velocity: Array,
-    axis_velocity: float,
-    inverse_exponent: Array,
     scale: float,
     dphi: float,
-) -> None:
-    """α and Δt S of one face from u and D: γ = 2u/(D−u), h as in model.md with 1/γ differenced.
+    inverse_area: Array,
+    velocity: Array,
+    inverse_share: Array,
+    axis_velocity: Array,
+    alpha: Array,
+    source: Array,
+) -> tuple[int, int, int]:
+    """α and Δt S of all faces by the continuity closure.
 
-    With g = 1/γ = (D−u)/(2u) the last two terms of h are −∂²_φ g; γ + 2 = 2D/(D−u) and
-    (γ+2)/γ = D/u. ``area`` and ``inverse_exponent`` have ghosts; ``scale`` is Δt μ/ρ.
+    Parameters
+    ----------
+    flow : ndarray (n_x + 1, n_phi)
+        Q, m³/s.
+    area : ndarray (n_x + 1, n_phi + 2)
+        A with filled periodic ghosts, m².
+    scale : float
+        Δt μ/ρ, m².
+    dphi : float
+        rad.
+    inverse_area, velocity : ndarray (n_x + 1, n_phi)
+        Scratch: 1/A and u.
+    inverse_share : ndarray (n_x + 1, n_phi + 2)
+        Scratch: D/u.
+    axis_velocity : ndarray (n_x + 1,)
+        Scratch: D, or 0 where a face is at rest.
+    alpha, source : ndarray (n_x + 1, n_phi)
+        Results: α and Δt S.
+
+    Returns
+    -------
+    status, f, j : int
+        OK, or NO_ADMISSIBLE_PROFILE and the first face and row where γ would not be positive.
     """
-    d = axis_velocity
-    g_here = inverse_exponent[1:-1]
-    for j in range(velocity.size):
-        g_here[j] = 0.5 * d / velocity[j] - 0.5
-    wrap(inverse_exponent)
-    first = 0.5 / dphi
-    second = 1.0 / (dphi * dphi)
-    area_before, area_here, area_after = area[:-2], area[1:-1], area[2:]
-    g_before, g_after = inverse_exponent[:-2], inverse_exponent[2:]
-    for j in range(velocity.size):
-        u = velocity[j]
-        both = d / ((d - u) * (d + u))
-        alpha[j] = 2.0 * both * (d - u)
-        half_gamma_plus_one = both * (d + u)
-        slope = (area_after[j] - area_before[j]) * first * inverse_area[j]
-        bend = (area_after[j] - 2.0 * area_here[j] + area_before[j]) * second * inverse_area[j]
-        g_bend = (g_after[j] - 2.0 * g_here[j] + g_before[j]) * second
-        bracket = 0.5 * bend - 0.5 * half_gamma_plus_one * slope * slope - g_bend
-        damping[j] = scale * inverse_area[j] * ((2.0 + 4.0 * g_here[j]) * bracket - 4.0 * half_gamma_plus_one)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def fixed_source(alpha: Array, damping: Array, inverse_area: Array, exponent: float, scale: float) -> None:
-    """α and Δt S of one face for a given γ, friction only: at rest, and for the 1D model."""
-    for j in range(alpha.size):
-        alpha[j] = (exponent + 2.0) / (exponent + 1.0)
-        damping[j] = -2.0 * (exponent + 2.0) * scale * inverse_area[j]
+    for f in range(flow.shape[0]):
+        d = _velocities(f, flow, area, inverse_area, velocity)
+        axis_velocity[f] = d
+        if abs(d) > REST_VELOCITY and _exponents(f, d, velocity, inverse_share, alpha, source):
+            wrap(inverse_share, f)
+        elif _at_rest(velocity, f):
+            axis_velocity[f] = 0.0
+        else:
+            return NO_ADMISSIBLE_PROFILE, f, _inadmissible_row(f, velocity, d)
+    for f in range(flow.shape[0]):
+        if axis_velocity[f] == 0.0:
+            _fixed_source(f, area, POISEUILLE, scale, alpha, source)
+        else:
+            _closure_source(f, area, inverse_area, inverse_share, scale, dphi, source)
+    return OK, 0, 0

@@ -16,14 +16,13 @@ see :mod:`solver.schemes.ends`.
 """
 
 import numpy as np
-from numba import njit
 
 from solver.schemes.ends import (
     INLET,
     OUTLET,
     close_outlet,
     end_areas,
-    face_area,
+    face_areas,
     half_cell,
     inlet_flow,
     inlet_slopes,
@@ -32,7 +31,6 @@ from solver.schemes.ends import (
     update_reservoir,
 )
 from solver.schemes.layout import (
-    NO_ADMISSIBLE_PROFILE,
     NOT_CONVERGED,
     NOT_FINITE,
     OK,
@@ -44,266 +42,164 @@ from solver.schemes.layout import (
     Stepping,
     Workspace,
 )
-from solver.schemes.profile import (
-    all_admissible,
-    at_rest,
-    closure_source,
-    fixed_source,
-    inadmissible_row,
-    mean,
-    wrap,
-)
+from solver.schemes.mass import accept_flow, accept_pressure, eliminate, hold_area, release_area, substitute
+from solver.schemes.momentum import momentum_flux, predict
+from solver.schemes.profile import closure_sources, fixed_sources
+from solver.schemes.vectorisation import inlined_kernel, kernel
 from solver.schemes.walls import wall_area
 
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _mean_areas(ws: Workspace, area: Array, theta: float) -> None:
-    for i in range(area.shape[0]):
-        old, new, weighted = area[i], ws.iterate_area[i], ws.mean_area[i]
-        for j in range(old.size):
-            weighted[j] = (1.0 - theta) * old[j] + theta * new[j]
+SLOWEST_RATIO = 0.05  # of two changes: an iteration is not taken to converge faster than this
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _face_velocity(old: Array, new: Array, theta: float, area: Array, row: Array) -> None:
-    """1/A and u = Q/A of one face at the θ-weighted mean, into the two rows of ``row``."""
-    inverse_area, velocity = row[0], row[1]
-    for j in range(velocity.size):
-        inverse_area[j] = 1.0 / area[j]
-        velocity[j] = ((1.0 - theta) * old[j] + theta * new[j]) * inverse_area[j]
+@kernel
+def _mean(theta: float, old: Array, new: Array, mean: Array) -> None:
+    """θ-weighted mean of the old state and the iterate."""
+    for i in range(mean.shape[0]):
+        for j in range(mean.shape[1]):
+            mean[i, j] = (1.0 - theta) * old[i, j] + theta * new[i, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _coefficients(p: Parameters, s: Stepping, ws: Workspace, flow: Array) -> tuple[int, int, int]:
-    """α and Δt S on every face at the θ-weighted mean; the failure (status, i, j) if there is one."""
-    n_x = ws.mean_area.shape[0]
-    area, inverse_exponent = ws.ghosted[0], ws.ghosted[1]
-    inverse_area, velocity = ws.row[0], ws.row[1]
+@inlined_kernel
+def _means(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
+    """Find A of the iterate, and the means of A, P and Q; the failure (status, i, j) if there is one."""
+    status, i, j = wall_area(p, 0, ws.iterate_pressure, ws.iterate_area, ws.area_slope)
+    if status != OK:
+        return status, i, j
+    _mean(s.theta, fields.area, ws.iterate_area, ws.mean_area)
+    _mean(s.theta, fields.pressure, ws.iterate_pressure, ws.mean_pressure)
+    _mean(s.theta, fields.flow, ws.iterate_flow, ws.mean_flow)
+    return end_areas(p, ws, s.theta)
+
+
+@inlined_kernel
+def _coefficients(p: Parameters, s: Stepping, ws: Workspace) -> tuple[int, int, int]:
+    """α and Δt S on every face at the means; the failure (status, i, j) if there is one."""
+    face_areas(ws.mean_area, ws.end_area, p.inlet_kind, ws.face_area)
     scale = s.time_step * p.kinematic_viscosity
-    for f in range(n_x + 1):
-        face_area(ws.mean_area, ws.end_area, p.inlet_kind, f, area[1:-1])
-        _face_velocity(flow[f], ws.iterate_flow[f], s.theta, area[1:-1], ws.row)
-        alpha, damping = ws.alpha[f], ws.damping[f]
-        if p.fixed_exponent > 0.0:
-            fixed_source(alpha, damping, inverse_area, p.fixed_exponent, scale)
-            continue
-        d = 2.0 * mean(velocity)
-        if abs(d) > REST_VELOCITY and all_admissible(velocity, d):
-            wrap(area)
-            closure_source(alpha, damping, area, inverse_area, velocity, d, inverse_exponent, scale, p.dphi)
-        elif at_rest(velocity):
-            fixed_source(alpha, damping, inverse_area, 2.0, scale)
-        else:
-            return NO_ADMISSIBLE_PROFILE, min(f, n_x - 1), inadmissible_row(velocity, d)
-    return OK, 0, 0
+    if p.fixed_exponent > 0.0:
+        fixed_sources(ws.face_area, p.fixed_exponent, scale, ws.alpha, ws.damping)
+        return OK, 0, 0
+    status, f, j = closure_sources(
+        ws.mean_flow,
+        ws.face_area,
+        scale,
+        p.dphi,
+        ws.inverse_area,
+        ws.velocity,
+        ws.inverse_share,
+        ws.axis_velocity,
+        ws.alpha,
+        ws.damping,
+    )
+    return status, min(f, ws.mean_area.shape[0] - 1), j
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _momentum_flux(s: Stepping, ws: Workspace, flow: Array) -> None:
-    """αQ²/A at cell centres from the two faces."""
-    theta = s.theta
-    for i in range(ws.mean_area.shape[0]):
-        old_left, old_right = flow[i], flow[i + 1]
-        new_left, new_right = ws.iterate_flow[i], ws.iterate_flow[i + 1]
-        alpha_left, alpha_right = ws.alpha[i], ws.alpha[i + 1]
-        area, flux = ws.mean_area[i], ws.momentum_flux[i]
-        for j in range(flux.size):
-            q = (1.0 - theta) * (old_left[j] + old_right[j]) + theta * (new_left[j] + new_right[j])
-            flux[j] = 0.125 * (alpha_left[j] + alpha_right[j]) * q * q / area[j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _predict(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
-    """Flow G that inner faces would have at the iterate's pressure, and their conductance κ."""
-    theta, carry = s.theta, s.time_step / p.dx
-    pull = 0.5 * s.time_step / (p.density * p.dx)
-    for f in range(1, ws.mean_area.shape[0]):
-        area_left, area_right = ws.mean_area[f - 1], ws.mean_area[f]
-        old_left, old_right = fields.pressure[f - 1], fields.pressure[f]
-        new_left, new_right = ws.iterate_pressure[f - 1], ws.iterate_pressure[f]
-        flux_left, flux_right = ws.momentum_flux[f - 1], ws.momentum_flux[f]
-        damping, old_flow = ws.damping[f], fields.flow[f]
-        explicit_flow, conductance = ws.explicit_flow[f], ws.conductance[f]
-        for j in range(damping.size):
-            drive = pull * (area_left[j] + area_right[j])
-            old = old_right[j] - old_left[j]
-            new = new_right[j] - new_left[j]
-            inverse = 1.0 / (1.0 - theta * damping[j])
-            rest = old_flow[j] * (1.0 + (1.0 - theta) * damping[j])
-            rest -= carry * (flux_right[j] - flux_left[j])
-            explicit_flow[j] = (rest - drive * ((1.0 - theta) * old + theta * new)) * inverse
-            conductance[j] = theta * drive * inverse
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _predict_ends(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float) -> None:
-    """G and κ at the inlet and at the outlet."""
-    n_x = ws.mean_area.shape[0]
+@inlined_kernel
+def _momentum(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float) -> None:
+    """G and κ of every face."""
+    momentum_flux(ws.mean_flow, ws.mean_area, ws.alpha, ws.momentum_flux)
+    carry = s.time_step / p.dx
+    predict(
+        s.theta,
+        carry,
+        carry / p.density,
+        fields.flow,
+        ws.mean_area,
+        ws.mean_pressure,
+        ws.momentum_flux,
+        ws.damping,
+        ws.explicit_flow,
+        ws.conductance,
+    )
     if p.inlet_kind == PRESSURE_INLET:
-        half_cell(p, s, ws, fields, 0, ws.momentum_flux[0], INLET)
+        half_cell(p, s, ws, fields, INLET)
     else:
         inlet_flow(p, ws, inlet_value, ws.explicit_flow[0])
         ws.conductance[0, :] = 0.0
-    half_cell(p, s, ws, fields, n_x, ws.momentum_flux[n_x - 1], OUTLET)
+    half_cell(p, s, ws, fields, OUTLET)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _mass_residual(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
-    """Mass balance of every cell at the iterate, into ``correction``; its own derivative, into pivots."""
+@inlined_kernel
+def _mass(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, values: tuple[float, float]) -> None:
+    """P' − P in every cell and Q' on every face; ``values`` are what inlet and outlet prescribe."""
+    inlet_value, outlet_offset = values
     c = s.theta * s.time_step / p.dx
-    explicit = (1.0 - s.theta) * s.time_step / p.dx
-    for i in range(fields.area.shape[0]):
-        old_left, old_right = fields.flow[i], fields.flow[i + 1]
-        new_left, new_right = ws.explicit_flow[i], ws.explicit_flow[i + 1]
-        area, iterate, slope = fields.area[i], ws.iterate_area[i], ws.area_slope[i]
-        left, right = ws.conductance[i], ws.conductance[i + 1]
-        pivot, rhs = ws.inverse_pivot[i], ws.correction[i]
-        for j in range(rhs.size):
-            divergence = explicit * (old_right[j] - old_left[j]) + c * (new_right[j] - new_left[j])
-            rhs[j] = area[j] - iterate[j] - divergence
-            pivot[j] = slope[j] + c * (left[j] + right[j])
+    slopes = inlet_slopes(p, inlet_value)
+    eliminate(
+        c,
+        slopes,
+        ws.held_area,
+        ws.iterate_area,
+        ws.area_slope,
+        ws.explicit_flow,
+        ws.conductance,
+        ws.correction,
+        ws.inverse_pivot,
+    )
+    outlet_law(p, s, ws, fields, outlet_offset)
+    close_outlet(p, s, ws)
+    substitute(c, slopes, ws.area_slope, ws.inverse_pivot, ws.conductance, ws.correction, ws.explicit_flow)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _eliminate(p: Parameters, s: Stepping, ws: Workspace, slopes: tuple[float, float]) -> None:
-    """Forward elimination of the linearised mass balance; leaves 1/pivot and right-hand sides.
-
-    The matrix is symmetric but for the first row, where Q' = vA' at a velocity inlet.
-    """
-    n_x, n_phi = ws.correction.shape
-    c = s.theta * s.time_step / p.dx
-    first, second = ws.area_slope[0], ws.area_slope[1]
-    above, pivot = ws.inverse_pivot[0], ws.inverse_pivot[1]
-    for j in range(n_phi):
-        above[j] = 1.0 / (above[j] - c * slopes[0] * first[j])
-        coupling = c * ws.conductance[1, j]
-        factor = coupling * above[j]
-        ws.correction[1, j] += factor * ws.correction[0, j]
-        pivot[j] = 1.0 / (pivot[j] - factor * (coupling + c * slopes[1] * second[j]))
-    for i in range(2, n_x):
-        conductance = ws.conductance[i]
-        above, pivot = ws.inverse_pivot[i - 1], ws.inverse_pivot[i]
-        rhs_above, rhs = ws.correction[i - 1], ws.correction[i]
-        for j in range(n_phi):
-            coupling = c * conductance[j]
-            factor = coupling * above[j]
-            rhs[j] += factor * rhs_above[j]
-            pivot[j] = 1.0 / (pivot[j] - factor * coupling)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _substitute(p: Parameters, s: Stepping, ws: Workspace, slopes: tuple[float, float]) -> None:
-    """Back substitution: P' − P of the iterate in every cell."""
-    n_x, n_phi = ws.mean_area.shape
-    c = s.theta * s.time_step / p.dx
-    first, second, slope = ws.correction[0], ws.correction[1], ws.area_slope[1]
-    for i in range(n_x - 2, -1, -1):
-        conductance, below = ws.conductance[i + 1], ws.correction[i + 1]
-        correction, inverse = ws.correction[i], ws.inverse_pivot[i]
-        for j in range(n_phi):
-            correction[j] = (correction[j] + c * conductance[j] * below[j]) * inverse[j]
-    for j in range(n_phi):
-        first[j] += c * slopes[1] * slope[j] * second[j] * ws.inverse_pivot[0, j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _correct(ws: Workspace, slopes: tuple[float, float]) -> None:
-    """P' in every cell, and Q' on every face but the outlet, which is closed already."""
-    n_x, n_phi = ws.mean_area.shape
-    for f in range(1, n_x):
-        left, right = ws.correction[f - 1], ws.correction[f]
-        flow, conductance = ws.explicit_flow[f], ws.conductance[f]
-        for j in range(n_phi):
-            flow[j] -= conductance[j] * (right[j] - left[j])
-    for i in range(n_x):
-        pressure, correction = ws.iterate_pressure[i], ws.correction[i]
-        for j in range(n_phi):
-            pressure[j] += correction[j]
-    first, second = ws.correction[0], ws.correction[1]
-    for j in range(n_phi):
-        change = slopes[0] * ws.area_slope[0, j] * first[j] + slopes[1] * ws.area_slope[1, j] * second[j]
-        ws.explicit_flow[0, j] += change - ws.conductance[0, j] * first[j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-def _rms(values: Array) -> float:
-    """Root of the mean square of a 2-D array."""
-    total = 0.0
-    for value in values.ravel():
-        total += value * value
-    return float(np.sqrt(total / values.size))
-
-
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
-def _accept_flow(ws: Workspace) -> tuple[float, float]:
-    """Take Q' as the iterate; root mean squares of its change and of itself."""
-    change, size = 0.0, 0.0
-    for f in range(ws.iterate_flow.shape[0]):
-        old, new = ws.iterate_flow[f], ws.explicit_flow[f]
-        for j in range(old.size):
-            difference = new[j] - old[j]
-            change += difference * difference
-            size += new[j] * new[j]
-            old[j] = new[j]
-    count = ws.iterate_flow.size
-    return float(np.sqrt(change / count)), float(np.sqrt(size / count))
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _extrapolate(new: Array, older: Array, oldest: Array, guess: Array, order: int) -> None:
-    """First iterate: the old state, or its extrapolation in time of order 1 or 2; remember the past."""
-    a = (1.0, 2.0, 3.0)[order]
-    b = (0.0, -1.0, -3.0)[order]
-    c = (0.0, 0.0, 1.0)[order]
-    for i in range(new.shape[0]):
-        now, past, before, target = new[i], older[i], oldest[i], guess[i]
-        for j in range(now.size):
-            target[j] = a * now[j] + b * past[j] + c * before[j]
-            before[j] = past[j]
-            past[j] = now[j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _start(
-    p: Parameters, ws: Workspace, fields: Fields, inlet_value: float, order: int
+@inlined_kernel
+def _sweep(
+    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, values: tuple[float, float]
 ) -> tuple[int, int, int]:
-    """First iterate of a step, and what stays fixed during it; status, i, j."""
-    _extrapolate(fields.pressure, ws.older_pressure, ws.oldest_pressure, ws.iterate_pressure, order)
-    _extrapolate(fields.flow, ws.older_flow, ws.oldest_flow, ws.iterate_flow, order)
+    """One Newton sweep: from one iterate to the next; status, i, j."""
+    status, i, j = _means(p, s, ws, fields)
+    if status != OK:
+        return status, i, j
+    status, i, j = _coefficients(p, s, ws)
+    if status != OK:
+        return status, i, j
+    _momentum(p, s, ws, fields, values[0])
+    _mass(p, s, ws, fields, values)
+    return OK, 0, 0
+
+
+@kernel
+def _copy(values: Array, target: Array) -> None:
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            target[i, j] = values[i, j]
+
+
+@kernel
+def _take(iterate: Array, state: Array) -> None:
+    """Make the iterate the state, and its linear extrapolation in time the next step's first iterate."""
+    for i in range(state.shape[0]):
+        for j in range(state.shape[1]):
+            new = iterate[i, j]
+            iterate[i, j] = 2.0 * new - state[i, j]
+            state[i, j] = new
+
+
+@inlined_kernel
+def _begin_at_state(ws: Workspace, fields: Fields) -> None:
+    """First iterate without a past: the state."""
+    _copy(fields.pressure, ws.iterate_pressure)
+    _copy(fields.flow, ws.iterate_flow)
     ws.end_pressure[OUTLET, :] = fields.outlet_pressure
+
+
+@inlined_kernel
+def _start(
+    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float
+) -> tuple[int, int, int]:
+    """Prepare what stays fixed during a step; status, i, j."""
+    hold_area(fields.area, fields.flow, (1.0 - s.theta) * s.time_step / p.dx, ws.held_area)
     ws.end_pressure[INLET, :] = inlet_value
     return old_end_areas(p, ws, fields)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _sweep(
-    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float, outlet_offset: float
-) -> tuple[int, int, int]:
-    """One Newton sweep: from one iterate to the next; status, i, j."""
-    status, i, j = wall_area(p, ws.iterate_pressure, ws.iterate_area, ws.area_slope)
-    if status != OK:
-        return status, i, j
-    _mean_areas(ws, fields.area, s.theta)
-    status, i, j = end_areas(p, ws, s.theta)
-    if status != OK:
-        return status, i, j
-    status, i, j = _coefficients(p, s, ws, fields.flow)
-    if status != OK:
-        return status, i, j
-    slopes = inlet_slopes(p, inlet_value)
-    _momentum_flux(s, ws, fields.flow)
-    _predict(p, s, ws, fields)
-    _predict_ends(p, s, ws, fields, inlet_value)
-    outlet_law(p, s, ws, fields, outlet_offset)
-    _mass_residual(p, s, ws, fields)
-    _eliminate(p, s, ws, slopes)
-    close_outlet(p, s, ws)
-    _substitute(p, s, ws, slopes)
-    _correct(ws, slopes)
-    return OK, 0, 0
+@kernel
+def _remaining(change: float, before: float) -> float:
+    """Error left after a change that followed another: the rest of their geometric series."""
+    ratio = max(change / before, SLOWEST_RATIO) if change < before else 1.0
+    return change * ratio / (1.0 - ratio) if ratio < 1.0 else np.inf
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def step(
     p: Parameters,
     s: Stepping,
@@ -311,9 +207,11 @@ def step(
     fields: Fields,
     inlet_value: float,
     outlet_offset: float,
-    order: int,
 ) -> tuple[int, int, int, int]:
-    """Advance the fields in place by one Δt.
+    """Advance the fields in place by one Δt from the workspace's first iterate; leave the next step's there.
+
+    The iteration ends where P and Q changed by less than the tolerance, or where the error that is left,
+    estimated from the last two changes, is below it.
 
     Parameters
     ----------
@@ -322,59 +220,53 @@ def step(
         v (m/s), q (m³/s) or P (Pa) at the new time, by the inlet's kind.
     outlet_offset : float
         P_res at the new time, Pa.
-    order : int
-        Order of the first iterate's extrapolation in time: 0, or 1 or 2 if the workspace holds so many
-        steps before, of the same Δt.
 
     Returns
     -------
     status, i, j, sweeps : int
         OK or what failed, the cell counted from 0, and the sweeps used.
     """
-    status, i, j = _start(p, ws, fields, inlet_value, order)
+    status, i, j = _start(p, s, ws, fields, inlet_value)
     if status != OK:
         return status, i, j, 0
     rest_flow = REST_VELOCITY * 1e-3 * p.radius * p.radius
+    flow_before, pressure_before = 0.0, 0.0
     for sweep in range(1, s.max_sweeps + 1):
-        status, i, j = _sweep(p, s, ws, fields, inlet_value, outlet_offset)
+        status, i, j = _sweep(p, s, ws, fields, (inlet_value, outlet_offset))
         if status != OK:
             return status, i, j, sweep
-        change, size = _accept_flow(ws)
-        correction, level = _rms(ws.correction), _rms(ws.iterate_pressure)
-        if not np.isfinite(change + size + correction + level):
+        flow_change, flow = accept_flow(ws.explicit_flow, ws.iterate_flow)
+        pressure_change, pressure = accept_pressure(ws.correction, ws.iterate_pressure)
+        if not np.isfinite(flow_change + flow + pressure_change + pressure):
             return NOT_FINITE, 0, 0, sweep
-        rest_pressure = 1e-9 + 1e-12 * level
-        flow_converged = change <= s.tolerance * size + rest_flow
-        if flow_converged and correction <= s.tolerance * level + rest_pressure:
+        flow_error = min(flow_change, _remaining(flow_change, flow_before))
+        pressure_error = min(pressure_change, _remaining(pressure_change, pressure_before))
+        flow_before, pressure_before = flow_change, pressure_change
+        flow_converged = flow_error <= s.tolerance * flow + rest_flow
+        if flow_converged and pressure_error <= s.tolerance * pressure + 1e-9 + 1e-12 * pressure:
             _accept(p, s, ws, fields)
             return OK, 0, 0, sweep
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     """Take the iterate as the new state; A' from the fluxes, so that mass is kept to round-off."""
-    area, flow, new_flow = fields.area, fields.flow, ws.iterate_flow
-    n_x = area.shape[0]
-    ratio = s.time_step / p.dx
+    flow, new_flow = fields.flow, ws.iterate_flow
+    n_x = fields.area.shape[0]
     sector = 0.5 * p.dphi * s.time_step
-    for j in range(area.shape[1]):
+    for j in range(flow.shape[1]):
         ws.exchanged[0] += sector * ((1.0 - s.theta) * flow[0, j] + s.theta * new_flow[0, j])
         ws.exchanged[1] += sector * ((1.0 - s.theta) * flow[n_x, j] + s.theta * new_flow[n_x, j])
-    for i in range(n_x):
-        row = area[i]
-        old_left, old_right, new_left, new_right = flow[i], flow[i + 1], new_flow[i], new_flow[i + 1]
-        for j in range(row.size):
-            old, new = old_right[j] - old_left[j], new_right[j] - new_left[j]
-            row[j] -= ratio * ((1.0 - s.theta) * old + s.theta * new)
-    fields.outlet_pressure[:] = ws.end_pressure[OUTLET]
+    release_area(ws.held_area, new_flow, s.theta * s.time_step / p.dx, fields.area)
     fields.inlet_pressure[:] = ws.end_pressure[INLET]
+    _take(ws.end_pressure[OUTLET:], fields.outlet_pressure.reshape((1, flow.shape[1])))
     update_reservoir(p, fields, new_flow[n_x])
-    flow[:, :] = new_flow
-    fields.pressure[:, :] = ws.iterate_pressure
+    _take(new_flow, flow)
+    _take(ws.iterate_pressure, fields.pressure)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def advance(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Array, outlet_offsets: Array
 ) -> tuple[int, int, int, int, int]:
@@ -385,16 +277,17 @@ def advance(
     status, i, j, steps, sweeps : int
         As :func:`step`; steps completed and sweeps in all.
     """
-    total, known = 0, 0
+    total, extrapolated = 0, False
+    _begin_at_state(ws, fields)
     for n in range(inlet_values.size):
         value, offset = inlet_values[n], outlet_offsets[n]
-        status, i, j, sweeps = step(p, s, ws, fields, value, offset, min(known, 2))
+        status, i, j, sweeps = step(p, s, ws, fields, value, offset)
         total += sweeps
-        if status != OK and known > 0:  # the past may be a jump, from which no state can be extrapolated
-            known = 0
-            status, i, j, sweeps = step(p, s, ws, fields, value, offset, 0)
+        if status != OK and extrapolated:  # the past may be a jump, from which no state can be extrapolated
+            _begin_at_state(ws, fields)
+            status, i, j, sweeps = step(p, s, ws, fields, value, offset)
             total += sweeps
-        known += 1
+        extrapolated = True
         if status != OK:
             return status, i, j, n, total
     return OK, 0, 0, inlet_values.size, total

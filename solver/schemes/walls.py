@@ -1,91 +1,73 @@
-"""A(P) and dA/dP of the wall, row by row (numba kernels)."""
-
-from numba import njit
+"""A(P) and dA/dP of the wall (numba kernels)."""
 
 from solver.schemes.layout import BEYOND_WALL_TABLE, OK, WALL_COLLAPSE, Array, Parameters
+from solver.schemes.vectorisation import kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _linear(pressure: Array, compliance: Array, p: Parameters, area: Array, slope: Array) -> None:
-    """R = R₀ + (P − P₀) dR/dP, A = R², dA/dP = 2R dR/dP."""
-    for j in range(pressure.size):
-        radius = p.radius + (pressure[j] - p.reference_pressure) * compliance[j]
-        area[j] = radius * radius
-        slope[j] = 2.0 * radius * compliance[j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _tabulated(pressure: Array, table: Array, start: float, step: float, area: Array, slope: Array) -> int:
-    """R by cubic Hermite interpolation of the table; first row beyond the table, or −1."""
-    last = table.shape[1] - 2
-    for j in range(pressure.size):
-        position = (pressure[j] - start) / step
-        if not 0.0 <= position <= last + 1.0:
-            return j
-        k = min(int(position), last)
-        t = position - k
-        r0, r1 = table[j, k, 0], table[j, k + 1, 0]
-        d0, d1 = step * table[j, k, 1], step * table[j, k + 1, 1]
-        curve = 3.0 * (r1 - r0) - 2.0 * d0 - d1
-        twist = d0 + d1 - 2.0 * (r1 - r0)
-        radius = r0 + t * (d0 + t * (curve + t * twist))
-        area[j] = radius * radius
-        slope[j] = 2.0 * radius * (d0 + t * (2.0 * curve + 3.0 * t * twist)) / step
-    return -1
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _first_not_positive(values: Array) -> int:
-    """First entry that is not above 0, or −1."""
+@kernel
+def _linear(
+    pressure: Array, compliance: Array, radius: float, reference: float, area: Array, slope: Array
+) -> bool:
+    """R = R₀ + (P − P₀) dR/dP, A = R², dA/dP = 2R dR/dP; whether dA/dP is positive everywhere."""
     count = 0
-    for j in range(values.size):
-        count += values[j] > 0.0
-    if count == values.size:
-        return -1
-    for j in range(values.size):
-        if not values[j] > 0.0:
-            return j
-    return -1
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def wall_row(p: Parameters, i: int, pressure: Array, area: Array, slope: Array) -> tuple[int, int]:
-    """Apply the wall law of cells (i, ·) to a row of pressures.
-
-    Returns
-    -------
-    status, j : int
-        OK, or WALL_COLLAPSE or BEYOND_WALL_TABLE and the row.
-    """
-    if p.table.shape[2] > 0:
-        j = _tabulated(pressure, p.table[i], p.table_start, p.table_step, area, slope)
-        if j >= 0:
-            return BEYOND_WALL_TABLE, j
-    else:
-        _linear(pressure, p.compliance[i], p, area, slope)
-    j = _first_not_positive(slope)
-    if j >= 0:
-        return WALL_COLLAPSE, j
-    return OK, 0
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def wall_area(p: Parameters, pressure: Array, area: Array, slope: Array) -> tuple[int, int, int]:
-    """Apply the wall law to pressures (n_x, n_phi); status, i, j as :func:`wall_row`."""
     for i in range(pressure.shape[0]):
-        status, j = wall_row(p, i, pressure[i], area[i], slope[i])
-        if status != OK:
-            return status, i, j
-    return OK, 0, 0
+        for j in range(pressure.shape[1]):
+            deformed = radius + (pressure[i, j] - reference) * compliance[i, j]
+            area[i, j] = deformed * deformed
+            slope[i, j] = 2.0 * deformed * compliance[i, j]
+            count += slope[i, j] > 0.0
+    return count == slope.size
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def tabulated_area(
     pressure: Array, table: Array, start: float, step: float, area: Array, slope: Array
 ) -> tuple[int, int, int]:
-    """Find A and dA/dP of a tabulated wall at pressures (n_x, n_phi); OK or BEYOND_WALL_TABLE, i, j."""
+    """Find A and dA/dP of a tabulated wall by cubic Hermite interpolation; OK or BEYOND_WALL_TABLE, i, j."""
+    last = table.shape[2] - 2
     for i in range(pressure.shape[0]):
-        j = _tabulated(pressure[i], table[i], start, step, area[i], slope[i])
-        if j >= 0:
-            return BEYOND_WALL_TABLE, i, j
+        for j in range(pressure.shape[1]):
+            position = (pressure[i, j] - start) / step
+            if not 0.0 <= position <= last + 1.0:
+                return BEYOND_WALL_TABLE, i, j
+            k = min(int(position), last)
+            t = position - k
+            r0, r1 = table[i, j, k, 0], table[i, j, k + 1, 0]
+            d0, d1 = step * table[i, j, k, 1], step * table[i, j, k + 1, 1]
+            curve = 3.0 * (r1 - r0) - 2.0 * d0 - d1
+            twist = d0 + d1 - 2.0 * (r1 - r0)
+            radius = r0 + t * (d0 + t * (curve + t * twist))
+            area[i, j] = radius * radius
+            slope[i, j] = 2.0 * radius * (d0 + t * (2.0 * curve + 3.0 * t * twist)) / step
     return OK, 0, 0
+
+
+@kernel
+def _collapsed(slope: Array) -> tuple[int, int, int]:
+    """WALL_COLLAPSE and the first cell where dA/dP is not positive, or OK."""
+    for i in range(slope.shape[0]):
+        for j in range(slope.shape[1]):
+            if not slope[i, j] > 0.0:
+                return WALL_COLLAPSE, i, j
+    return OK, 0, 0
+
+
+@kernel
+def wall_area(p: Parameters, first: int, pressure: Array, area: Array, slope: Array) -> tuple[int, int, int]:
+    """Apply the wall law of the columns from ``first`` on to pressures (columns, n_phi).
+
+    Returns
+    -------
+    status, i, j : int
+        OK, or WALL_COLLAPSE or BEYOND_WALL_TABLE and the cell.
+    """
+    end = first + pressure.shape[0]
+    if p.table.shape[2] > 0:
+        table = p.table[first:end]
+        status, i, j = tabulated_area(pressure, table, p.table_start, p.table_step, area, slope)
+        if status != OK:
+            return status, first + i, j
+    elif _linear(pressure, p.compliance[first:end], p.radius, p.reference_pressure, area, slope):
+        return OK, 0, 0
+    status, i, j = _collapsed(slope)
+    return status, first + i, j

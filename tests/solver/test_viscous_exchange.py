@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from solver.profiles import continuity_exponent, momentum_correction
-from solver.schemes.ends import face_area
-from solver.schemes.layout import FLOW_INLET, PRESSURE_INLET, VELOCITY_INLET
-from solver.schemes.profile import closure_source, fixed_source
+from solver.schemes.ends import face_areas
+from solver.schemes.layout import FLOW_INLET, NO_ADMISSIBLE_PROFILE, OK, PRESSURE_INLET, VELOCITY_INLET
+from solver.schemes.profile import closure_sources, fixed_sources
 
 KINEMATIC_VISCOSITY = 0.003 / 1060
 MEAN_AREA = 7e-6
@@ -33,14 +33,26 @@ def exact_source(area, gamma):
     return exchange - 2 * (gamma + 2) * KINEMATIC_VISCOSITY / area
 
 
+def with_ghosts(row):
+    return np.concatenate((row[-1:], row, row[:1]))[None, :]
+
+
+def closure(area, velocity):
+    """Status, row and the two results of the kernel for one face."""
+    faces, ghosted = (1, area.size), (1, area.size + 2)
+    alpha, source = np.empty(faces), np.empty(faces)
+    scratch = np.empty(faces), np.empty(faces), np.empty(ghosted), np.empty(1)
+    dphi = 2 * np.pi / area.size
+    flow = (velocity * area)[None, :]
+    status, _, row = closure_sources(
+        flow, with_ghosts(area), KINEMATIC_VISCOSITY, dphi, *scratch, alpha, source
+    )
+    return status, row, alpha[0], source[0]
+
+
 def kernel(area, velocity):
-    rows = area.size
-    alpha, source = np.empty(rows), np.empty(rows)
-    ghosted = np.concatenate((area[-1:], area, area[:1]))
-    axis = 2 * velocity.mean()
-    dphi = 2 * np.pi / rows
-    arguments = (ghosted, 1 / area, velocity, axis, np.empty(rows + 2), KINEMATIC_VISCOSITY, dphi)
-    closure_source(alpha, source, *arguments)
+    status, _, alpha, source = closure(area, velocity)
+    assert status == OK
     return alpha, source
 
 
@@ -82,10 +94,27 @@ def test_exchange_does_not_see_the_direction_of_flow():
 def test_a_section_at_rest_feels_poiseuille_friction():
     """The limit of slow equal rows."""
     area = MEAN_AREA * np.array([1.0, 1.1, 0.9, 1.0])
-    alpha, source = np.empty(4), np.empty(4)
-    fixed_source(alpha, source, 1 / area, 2.0, KINEMATIC_VISCOSITY)
+    alpha, source = kernel(area, np.zeros(4))
     np.testing.assert_allclose(alpha, 4 / 3)
     np.testing.assert_allclose(source, -8 * KINEMATIC_VISCOSITY / area)
+
+
+def test_a_fixed_exponent_gives_its_own_friction():
+    area = MEAN_AREA * np.array([1.0, 1.1, 0.9, 1.0])
+    alpha, source = np.empty((1, 4)), np.empty((1, 4))
+    fixed_sources(with_ghosts(area), 9.0, KINEMATIC_VISCOSITY, alpha, source)
+    np.testing.assert_allclose(alpha, 11 / 10)
+    np.testing.assert_allclose(source[0], -22 * KINEMATIC_VISCOSITY / area)
+
+
+@pytest.mark.parametrize("row", [0, 3])
+@pytest.mark.parametrize("share", [-0.1, 3.9])
+def test_a_row_without_an_admissible_profile_is_told(row, share):
+    """A row against the flow, and one faster than D, twice the mean."""
+    velocity = np.full(4, 0.1)
+    velocity[row] = share * 0.1
+    status, found, _, _ = closure(np.full(4, MEAN_AREA), velocity)
+    assert (status, found) == (NO_ADMISSIBLE_PROFILE, row)
 
 
 @pytest.mark.parametrize(
@@ -96,7 +125,9 @@ def test_areas_of_faces_are_exact_where_the_area_is_linear(kind, inlet):
     x = np.arange(6) + 0.5
     slopes = np.array([0.0, 0.1, -0.2, 0.3])
     mean, ends = 10 + np.outer(x, slopes), np.array([np.full(4, 9.0), 10 + 6 * slopes])
+    area = np.empty((7, 6))
+    face_areas(mean, ends, kind, area)
     for face in range(7):
-        area = np.empty(4)
-        face_area(mean, ends, kind, face, area)
-        np.testing.assert_allclose(area, 10 + face * slopes if face else np.full(4, inlet), rtol=1e-14)
+        expected = 10 + face * slopes if face else np.full(4, inlet)
+        np.testing.assert_allclose(area[face, 1:-1], expected, rtol=1e-14)
+    np.testing.assert_array_equal(area[:, [0, -1]], area[:, [-2, 1]])
