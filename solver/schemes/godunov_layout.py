@@ -81,7 +81,7 @@ class Ramp(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Scratch of a step, flat arrays of columns × stride, and what the stopping criteria compare."""
+    """Scratch of a step, flat arrays of columns × stride; what the stopping criteria compare; what passed."""
 
     slow_speed: Array
     fast_speed: Array
@@ -95,6 +95,7 @@ class Workspace(NamedTuple):
     velocity: Array
     area_before: Array
     flow_before: Array
+    passed: Array  # (2,): sums of the section's flow rate on inlet and outlet after each step, m³/s
 
 
 def stride(n_phi: int) -> int:
@@ -105,7 +106,8 @@ def stride(n_phi: int) -> int:
 def workspace(columns: int, n_phi: int) -> Workspace:
     """Scratch for ``columns`` columns (ends included) of ``n_phi`` rows."""
     size = columns * stride(n_phi)
-    return Workspace(*(np.zeros(size) for _ in Workspace._fields))
+    scratch = {name: np.zeros(size) for name in Workspace._fields}
+    return Workspace(**(scratch | {"passed": np.zeros(2)}))
 
 
 def flattened(values: Array) -> Array:
