@@ -65,6 +65,7 @@ class Stepper:
             stiffness=ramp.last.copy(),
             stiffness_slope=ramp.last_slope.copy(),
             fastest=np.zeros_like(area),
+            reservoir=np.array([initial.reservoir]),
         )
         self._slabs: list[Slab] = cut(fields, ramp, setup.parameters, threads)
         self._pool = ThreadPoolExecutor(max(1, len(self._slabs) - 1))
@@ -88,7 +89,7 @@ class Stepper:
         area, flow, exponent = (
             layout.unflattened(values, *shape) for values in (fields.area, fields.flow, fields.exponent)
         )
-        return State(self.time, area, flow, exponent)
+        return State(self.time, area, flow, exponent, float(self._slabs[-1].fields.reservoir[0]))
 
     @property
     def courant(self) -> float:

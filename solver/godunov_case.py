@@ -2,13 +2,14 @@
 
 from collections.abc import Iterator
 from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cases.schema import Case
 from cases.solver_settings import GodunovSolver
-from solver.boundary import NonReflectingOutlet, ResistanceOutlet
+from solver.boundary import NonReflectingOutlet, Outlet, ResistanceOutlet, WindkesselOutlet
 from solver.columns import columns_of
 from solver.diagnostics import Columns
 from solver.errors import ModelError
@@ -37,17 +38,11 @@ def setup_of(case: Case, model: Model) -> Setup:
     Raises
     ------
     ModelError
-        For a wall law but thin and thick, a sharp calcification, a flow inlet, or an outlet that this
-        scheme lacks.
+        For a wall law but thin and thick, or a sharp calcification.
     """
-    settings, outlet = case.solver, model.outlet
+    settings = case.solver
     if not isinstance(settings, GodunovSolver):
         raise ModelError(f"scheme {settings.scheme!r}; this run needs godunov")
-    if model.inlet.kind == "flow":
-        raise ModelError("scheme godunov needs an inlet of kind velocity or pressure")
-    if not isinstance(outlet, ResistanceOutlet | NonReflectingOutlet):
-        raise ModelError("scheme godunov needs an outlet of kind resistance or non_reflecting")
-    resistance = outlet.resistance if isinstance(outlet, ResistanceOutlet) else 0.0
     return Setup(
         grid=model.grid,
         time_step=settings.time_step,
@@ -58,14 +53,28 @@ def setup_of(case: Case, model: Model) -> Setup:
         wall=smooth_wall(model.grid, patch_of(case), *healthy_and_calcified(case)),
         inlet_kind=model.inlet.kind,
         inlet=model.inlet.signal,
-        outlet_kind=outlet.flow if isinstance(outlet, ResistanceOutlet) else "non_reflecting",
-        resistance=resistance,
         offset=lambda times: offsets(model, times),
+        **_outlet(model.outlet),
         limiter=settings.limiter,
         closure=settings.closure,
         viscous_exchange=settings.coefficients,
         exponent_gradient=settings.coefficients,
     )
+
+
+def _outlet(outlet: Outlet) -> dict[str, Any]:
+    """Fields of the set-up for an outlet; one of prescribed pressure has no resistance."""
+    if isinstance(outlet, ResistanceOutlet):
+        return {"outlet_kind": outlet.flow, "resistance": outlet.resistance}
+    if isinstance(outlet, WindkesselOutlet):
+        return {
+            "outlet_kind": "windkessel",
+            "resistance": outlet.proximal_resistance,
+            "distal_resistance": outlet.distal_resistance,
+            "capacitance": outlet.compliance,
+            "venous_pressure": outlet.venous_pressure,
+        }
+    return {"outlet_kind": "non_reflecting" if isinstance(outlet, NonReflectingOutlet) else "section"}
 
 
 def initial_columns(case: Case, model: Model, setup: Setup) -> State:
@@ -75,7 +84,7 @@ def initial_columns(case: Case, model: Model, setup: Setup) -> State:
     the thesis (3.3.2): where β varies this scheme does not keep another scheme's steady state.
     """
     if case.solver.start == "rest":
-        return reference_state(setup)
+        return replace(reference_state(setup), reservoir=model.reference_pressure)
     healthy, _ = healthy_and_calcified(case)
     before = replace(model, stiffness=np.full_like(model.stiffness, healthy))
     start = _columns(before, steady_state(before, float(model.inlet.signal(0.0))))
@@ -94,7 +103,8 @@ def initial_columns(case: Case, model: Model, setup: Setup) -> State:
 def _columns(model: Model, steady: SteadyState) -> State:
     """State on inlet, cells and outlet from one of the semi-implicit scheme."""
     area, flow, exponent, _ = columns_of(model, steady)
-    return State(0.0, area, flow, np.where(np.isfinite(exponent), exponent, AVERAGE_EXPONENT))
+    gamma = np.where(np.isfinite(exponent), exponent, AVERAGE_EXPONENT)
+    return State(0.0, area, flow, gamma, 0.0 if steady.reservoir is None else steady.reservoir)
 
 
 def walk_godunov(case: Case, model: Model, times: Floats, kept: Kept | None = None) -> Iterator[Stop]:
@@ -143,4 +153,4 @@ def _kept(state: State) -> Kept:
 
 
 def _state(kept: Kept) -> State:
-    return State(float(kept["time"]), kept["area"], kept["flow"], kept["exponent"])
+    return State(float(kept["time"]), kept["area"], kept["flow"], kept["exponent"], float(kept["reservoir"]))

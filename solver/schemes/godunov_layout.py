@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 
 UPWIND, LAX_WENDROFF, VAN_LEER, SUPERBEE, MINMOD, MONOTONIZED_CENTRAL = range(6)
 FIXED, AVERAGE, MAXIMUM, LEAST_SQUARES = range(4)
-VELOCITY_INLET, PRESSURE_INLET = range(2)
-ROW_RESISTANCE, SECTION_RESISTANCE, NON_REFLECTING = range(3)
+VELOCITY_INLET, PRESSURE_INLET, FLOW_INLET = range(3)
+ROW_RESISTANCE, SECTION_RESISTANCE, NON_REFLECTING, WINDKESSEL = range(4)
 OK, NO_ADMISSIBLE_PROFILE, WALL_COLLAPSE, STEADY = range(4)
 
 AVERAGE_AXIS_RATIO = 2.0  # (γ_avg + 2)/γ_avg with γ_avg = 2, (2.2.56)
@@ -44,6 +44,9 @@ class Parameters(NamedTuple):
     kinematic_viscosity: float
     reference_pressure: float
     resistance: float
+    distal_resistance: float
+    capacitance: float
+    venous_pressure: float
     inlet: int
     outlet: int
     limiter: int
@@ -59,6 +62,7 @@ class Fields(NamedTuple):
 
     ``root`` is √A and ``inverse_root`` 1/√A; ``stiffness`` β (Pa m) and its derivative ``stiffness_slope``
     ∂_xβ (Pa) are those of the present instant; ``fastest`` is the largest |λ| yet met on each interface.
+    ``reservoir`` (1,) is the pressure P_c of a Windkessel's capacitor, Pa.
     """
 
     area: Array
@@ -69,6 +73,7 @@ class Fields(NamedTuple):
     stiffness: Array
     stiffness_slope: Array
     fastest: Array
+    reservoir: Array
 
 
 class Ramp(NamedTuple):
