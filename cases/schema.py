@@ -22,6 +22,7 @@ from cases.solver_settings import (
     FEWEST_ROWS,
     MOST_STATES,
     MOST_STEPS,
+    RESOLVED_PER_CYCLE,
     GodunovSolver,
     SemiImplicitSolver,
     Solver,
@@ -180,6 +181,7 @@ class Case(Section):
             raise refused(solver.n_phi, allowed, key=("n_phi",))
         if inlet is not None:
             _refuse_endless_runs(solver, inlet)
+            _refuse_unresolved_energy(solver, inlet)
         if "start" not in solver.model_fields_set and inlet is not None and outlet is not None:
             return solver.model_copy(update={"start": _default_start(inlet, outlet)})
         return solver
@@ -218,6 +220,15 @@ def _refuse_endless_runs(solver: Solver, inlet: Inlet) -> None:
         if count > most * (1.0 + SAME):
             reason = f"{count:.4g} {words} in {solver.cycles} cycles of {inlet.period:g} s"
             raise refused(f"{interval:g} s", f"at most {most} {words}", reason, key=(key,))
+
+
+def _refuse_unresolved_energy(solver: Solver, inlet: Inlet) -> None:
+    """Refuse a limit on the energy balance where the saved states cannot resolve it."""
+    longest, interval = inlet.period / RESOLVED_PER_CYCLE, solver.output_interval
+    stated = solver.limits is not None and solver.limits.energy_defect is not None
+    if stated and interval is not None and interval > longest * (1.0 + SAME):
+        allowed = f"with limits.energy_defect at most a {RESOLVED_PER_CYCLE}th of the cycle ({longest:g} s)"
+        raise refused(f"{interval:g} s", allowed, key=("output_interval",))
 
 
 def _default_start(inlet: Inlet, outlet: Outlet) -> Start:

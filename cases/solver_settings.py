@@ -6,13 +6,23 @@ from typing import Annotated, Literal
 from pydantic import Tag, ValidationInfo, field_validator
 
 from cases.section import Section
-from cases.values import Exponent, TimeStep, Tolerance, one_of, refused, whole_number
+from cases.values import (
+    CourantLimit,
+    DefectLimit,
+    Exponent,
+    TimeStep,
+    Tolerance,
+    one_of,
+    refused,
+    whole_number,
+)
 
 FEWEST_ROWS = 4
 MOST_SECTIONS, MOST_ROWS, MOST_CELLS = 10_000, 2_000, 2_000_000
 MOST_CYCLES = 1_000
 MOST_STEPS = MappingProxyType({"semi_implicit": 10_000_000, "godunov": 100_000_000})
 MOST_STATES = 100_000
+RESOLVED_PER_CYCLE = 50  # saved states with which powers are integrated over time
 
 Closure = Literal["average", "maximum", "least_squares"]
 Start = Literal["steady", "rest"]
@@ -25,6 +35,24 @@ Rows = whole_number(
     lambda n: n == 1 or FEWEST_ROWS <= n <= MOST_ROWS,
 )
 Cycles = whole_number(f"a whole number from 1 to {MOST_CYCLES}", lambda n: 1 <= n <= MOST_CYCLES)
+
+
+class Limits(Section):
+    """Largest values of a run's diagnostics; one above its limit stops the run. None: no limit.
+
+    Attributes
+    ----------
+    courant_number, advective_courant_number : float or None
+        Largest wave speed or mean velocity × Δt/Δx, in [0.001, 1e6].
+    mass_defect, continuity_residual, energy_defect : float or None
+        See the table of fields; ratios in [1e-15, 1].
+    """
+
+    courant_number: CourantLimit | None = None
+    advective_courant_number: CourantLimit | None = None
+    mass_defect: DefectLimit | None = None
+    continuity_residual: DefectLimit | None = None
+    energy_defect: DefectLimit | None = None
 
 
 class SolverSettings(Section):
@@ -47,6 +75,8 @@ class SolverSettings(Section):
         none is stated, a `Case` sets rest if a boundary has a ramp, or the outlet is non-reflecting.
     output_interval : float or None
         Time between saved states in s, at least the time step.
+    limits : Limits or None
+        What stops the run.
     """
 
     scheme: str
@@ -57,6 +87,7 @@ class SolverSettings(Section):
     closure: Annotated[Closure, one_of(Closure)]
     start: Annotated[Start, one_of(Start)] = "steady"
     output_interval: TimeStep | None = None
+    limits: Limits | None = None
 
     @field_validator("n_phi")
     @classmethod

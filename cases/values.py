@@ -213,18 +213,22 @@ def _switch(value: object, _context: Context | None) -> bool:
     return value
 
 
-def _tolerance(value: object, _context: Context | None) -> float:
-    try:
-        tolerance = parse_ratio(value)
-    except QuantityError as error:
-        raise refused(value, TOLERANCE, str(error)) from error
-    if not 1e-9 <= tolerance <= 0.1:
-        raise refused(value, TOLERANCE)
-    return tolerance
+def ratio(allowed: str, least: float, largest: float) -> ValueKind:
+    """Return the kind of ratios in a range, as numbers or in %."""
+
+    def parse(value: object, _context: Context | None) -> float:
+        try:
+            found = parse_ratio(value)
+        except QuantityError as error:
+            raise refused(value, allowed, str(error)) from error
+        if not least <= found <= largest:
+            raise refused(value, allowed)
+        return found
+
+    return ValueKind(parse, allowed, {"type": ["string", "number"]})
 
 
 SWITCH = "true, false"
-TOLERANCE = 'a ratio from 1e-9 to 0.1, e.g. "0.1 %"'
 PATH_SCHEMA = {"type": "string", "minLength": 1}
 
 Length = Annotated[float, quantity(COORDINATES, "0 mm")]
@@ -249,7 +253,9 @@ Resistance = Annotated[float, quantity(RESISTANCES, "1.358e9 Pa s/m^3")]
 SeriesResistance = Annotated[float, quantity(SERIES_RESISTANCES, "1.358e9 Pa s/m^3")]
 Compliance = Annotated[float, quantity(COMPLIANCES, "1e-10 m^3/Pa")]
 Exponent = Annotated[float, number("a number from 0.01 to 1000", lambda value: 0.01 <= value <= 1000)]
-Tolerance = Annotated[float, ValueKind(_tolerance, TOLERANCE, {"type": ["string", "number"]})]
+Tolerance = Annotated[float, ratio('a ratio from 1e-9 to 0.1, e.g. "0.1 %"', 1e-9, 0.1)]
+CourantLimit = Annotated[float, number("a number from 0.001 to 1e6", lambda value: 0.001 <= value <= 1e6)]
+DefectLimit = Annotated[float, ratio('a ratio from 1e-15 to 1, e.g. "0.1 %"', 1e-15, 1.0)]
 Switch = Annotated[bool, ValueKind(_switch, SWITCH, {"type": "boolean"})]
 Words = Annotated[str, text("a text", r"(?s).*\S.*")]
 NAME_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}"

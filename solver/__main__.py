@@ -1,15 +1,17 @@
 """``python -m solver CASE.yaml [--variant NAME] --output FILE.nc``: run the reduced model alone."""
 
 import argparse
+import math
 import sys
 from pathlib import Path
 
 from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
+from solver.diagnostics import Limits
 from solver.errors import SolverError
 from solver.files import check_folder
 from solver.progress import progress_bar
-from solver.run import pieces_folder, run_identity, run_to_file, run_whole
+from solver.run import pieces_folder, run_identity, run_to_file
 
 WRONG_INPUT, INTERRUPTED = 2, 130
 
@@ -53,10 +55,7 @@ def main() -> int:
         plot = None if case.reference is None else case.reference.plot_file
         identity = run_identity(file.text, variant, [path for path in case.input_files if path != plot])
         with progress_bar(f"{file.name} {variant}") as progress:
-            if case.solver.scheme == "godunov":
-                done = run_whole(case, arguments.output, stated, arguments.resume, progress)
-            else:
-                done = run_to_file(case, arguments.output, identity, stated, arguments.resume, progress)
+            done = run_to_file(case, arguments.output, identity, stated, arguments.resume, progress)
     except (CaseError, SolverError) as error:
         print(error, file=sys.stderr)
         return WRONG_INPUT
@@ -65,6 +64,10 @@ def main() -> int:
         print(f"interrupted; --resume goes on from the last piece in {kept}", file=sys.stderr)
         return INTERRUPTED
     print(f"{arguments.output}: {done['steps']} steps of at most {done['time_step_s']:.6g} s")
+    for name in vars(Limits()):
+        value = done["largest"][name]
+        found = f"at most {value:.3g}" if math.isfinite(value) else "not evaluated: states too far apart"
+        print(f"  {name.replace('_', ' ')} {found}")
     return 0
 
 

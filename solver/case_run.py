@@ -1,25 +1,58 @@
-"""Run a checked case in memory, with whichever scheme it names."""
+"""Run a checked case with whichever scheme it names."""
 
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from cases.schema import Case
-from solver.from_case import error_tolerance, initial_state, model_of
-from solver.godunov_case import run_godunov
-from solver.result import to_dataset
-from solver.simulate import Progress, simulate
+from solver.from_case import model_of
+from solver.godunov_case import walk_godunov
+from solver.model import Model
+from solver.result import cell_dataset
+from solver.semi_implicit_case import walk_semi_implicit
+from solver.simulate import Progress, checked_times
+from solver.walk import Kept, Stop, history_of
+
+SCHEMES = {"godunov": walk_godunov, "semi_implicit": walk_semi_implicit}
 
 
-def run_case(case: Case, times: ArrayLike, progress: Progress | None = None) -> xr.Dataset:
-    """Run a case through ``times`` (s, from 0); see :func:`solver.result.cell_dataset`.
+def walk(case: Case, model: Model, times: NDArray[np.float64], kept: Kept | None = None) -> Iterator[Stop]:
+    """Run a case through ``times`` (s) with its scheme.
+
+    The first stop is the start, or where ``kept`` was left: from there the run goes on to the same bits as
+    one that was not interrupted.
 
     Raises
     ------
     SolverError
         As the scheme raises it.
     """
-    if case.solver.scheme == "godunov":
-        return run_godunov(case, times, progress)
-    model = model_of(case)
-    start = initial_state(case, model)
-    return to_dataset(simulate(model, times, case.solver.time_step, start, progress, error_tolerance(case)))
+    return SCHEMES[case.solver.scheme](case, model, times, kept)
+
+
+def counts(case: Case, steps: int, sweeps: int, longest_step: float) -> dict[str, Any]:
+    """Global attributes that say how a result was computed."""
+    found: dict[str, Any] = {"scheme": case.solver.scheme, "time_step_s": longest_step, "steps": steps}
+    return found if case.solver.scheme == "godunov" else found | {"iteration_sweeps": sweeps}
+
+
+def run_case(case: Case, times: ArrayLike, progress: Progress | None = None) -> xr.Dataset:
+    """Run a case in memory through ``times`` (s, from 0); see :func:`solver.result.cell_dataset`.
+
+    Raises
+    ------
+    SolverError
+        As the scheme raises it.
+    """
+    model, wanted = model_of(case), checked_times(times, case.solver.time_step)
+    stops = []
+    for stop in walk(case, model, wanted):
+        stops.append(stop)
+        if progress:
+            progress(stop.time, float(wanted[-1]))
+    longest = max(stop.longest_step for stop in stops)
+    found = counts(case, stops[-1].steps, stops[-1].sweeps, longest)
+    return cell_dataset(model, history_of(stops)).assign_attrs(found)

@@ -56,3 +56,27 @@ class NotFinite(RunFailure):
     """A field is infinite or not a number."""
 
     reason = "a field is not finite"
+
+
+class CourantExceeded(RunFailure):
+    """A Courant number is above the limit that the case states."""
+
+    reason = "the Courant number is above its limit"
+
+
+class MassNotConserved(RunFailure):
+    """The mass defect is above the limit that the case states."""
+
+    reason = "mass is not conserved to the limit"
+
+
+class AxisNotContinuous(RunFailure):
+    """The velocity on the axis differs over φ by more than the case allows."""
+
+    reason = "the continuity condition on the axis is not satisfied to the limit"
+
+
+class EnergyNotBalanced(RunFailure):
+    """The balance of mechanical energy misses more than the case allows."""
+
+    reason = "mechanical energy is not balanced to the limit"

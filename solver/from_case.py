@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 import cases.outlet as stated
 from cases.inlet import PrescribedInlet
 from cases.schema import Case
-from cases.solver_settings import SemiImplicitSolver
+from cases.solver_settings import RESOLVED_PER_CYCLE, SemiImplicitSolver
 from cases.waveform_file import Waveform as Samples
 from solver.boundary import (
     Inlet,
@@ -17,6 +17,7 @@ from solver.boundary import (
     WindkesselOutlet,
 )
 from solver.calcification import scaled_distance
+from solver.diagnostics import Limits, Monitor
 from solver.grid import Grid
 from solver.model import Model, State, uniform_state
 from solver.steady import steady_state
@@ -121,6 +122,13 @@ def initial_state(case: Case, model: Model) -> State:
 def error_tolerance(case: Case) -> float | None:
     """Relative error of a step that the case asks for; None for a fixed time step."""
     return case.solver.error_tolerance if isinstance(case.solver, SemiImplicitSolver) else None
+
+
+def monitor_of(case: Case, model: Model, history: NDArray[np.float64] | None = None) -> Monitor:
+    """Monitor with the limits of a case; ``history`` is that of the run that is continued."""
+    stated = case.solver.limits
+    limits = Limits() if stated is None else Limits(**stated.model_dump())
+    return Monitor(model, limits, case.inlet.period / RESOLVED_PER_CYCLE, history)
 
 
 def default_output_times(case: Case) -> NDArray[np.float64]:

@@ -1,12 +1,12 @@
 """Run the Godunov scheme: through time, or until the thesis's criteria call the flow steady."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from solver.errors import ModelError, NoAdmissibleProfile, NotConverged, RunFailure, WallCollapse
 from solver.godunov_setup import Setup, State
@@ -14,6 +14,7 @@ from solver.godunov_slabs import Slab, advance, cut, gather
 from solver.schemes import godunov_layout as layout
 from solver.schemes.godunov_steady import Stopping
 
+Floats = NDArray[np.float64]
 Progress = Callable[[float, float], None]
 
 _NO_CRITERIA = Stopping(False, np.inf, np.inf, np.inf, np.inf, np.inf)
@@ -33,6 +34,8 @@ class Stepper:
     initial : State
     threads : int
         Slabs that step side by side (narrow grids use fewer).
+    done : int
+        Steps from time 0 to the initial state of a run that goes on; then the state's own time is not used.
 
     Raises
     ------
@@ -40,13 +43,13 @@ class Stepper:
         If the initial state does not fit the grid.
     """
 
-    def __init__(self, setup: Setup, initial: State, threads: int = 1) -> None:
+    def __init__(self, setup: Setup, initial: State, threads: int = 1, done: int = 0) -> None:
         shape = (setup.grid.n_x + 2, setup.grid.n_phi)
         if initial.area.shape != shape or initial.flow.shape != shape or initial.exponent.shape != shape:
             raise ModelError(f"the initial state has shape {initial.area.shape}; the grid needs {shape}")
         if not np.all(initial.area > 0):
             raise ModelError("the initial area must be positive")
-        self.setup, self.start, self.steps = setup, initial.time, 0
+        self.setup, self.start, self.steps = setup, 0.0 if done else initial.time, done
         before = setup.wall_before or setup.wall
         flat = layout.flattened
         ramp = layout.Ramp(
@@ -62,6 +65,7 @@ class Stepper:
             stiffness=ramp.last.copy(),
             stiffness_slope=ramp.last_slope.copy(),
             fastest=np.zeros_like(area),
+            reservoir=np.array([initial.reservoir]),
         )
         self._slabs: list[Slab] = cut(fields, ramp, setup.parameters, threads)
         self._pool = ThreadPoolExecutor(max(1, len(self._slabs) - 1))
@@ -85,12 +89,23 @@ class Stepper:
         area, flow, exponent = (
             layout.unflattened(values, *shape) for values in (fields.area, fields.flow, fields.exponent)
         )
-        return State(self.time, area, flow, exponent)
+        return State(self.time, area, flow, exponent, float(self._slabs[-1].fields.reservoir[0]))
 
     @property
     def courant(self) -> float:
         """Largest Courant number max|λ|Δt/Δx met so far."""
         return float(np.max(gather(self._slabs).fastest)) * self.setup.time_step / self.setup.grid.dx
+
+    def begin_interval(self) -> None:
+        """Count Courant number and volumes from here."""
+        for slab in self._slabs:
+            slab.fields.fastest[:] = 0.0
+            slab.work.passed[:] = 0.0
+
+    @property
+    def passed(self) -> Floats:
+        """Volumes through inlet and outlet since the interval began, by the rule of right ends, m³."""
+        return np.asarray(sum(slab.work.passed for slab in self._slabs) * self.setup.time_step)
 
     def advance(self, count: int, stopping: Stopping = _NO_CRITERIA) -> bool:
         """Take ``count`` steps, or fewer if the flow becomes steady; returns whether it did.
@@ -123,6 +138,27 @@ class Trajectory:
     courant: float
 
 
+def target_steps(setup: Setup, begin: float, times: ArrayLike) -> NDArray[np.int64]:
+    """Count the steps from ``begin`` (s) to the one nearest to each of ``times``, (n,).
+
+    Raises
+    ------
+    ModelError
+        Times that do not increase or lie before the beginning.
+    """
+    targets = np.rint((np.asarray(times, dtype=float) - begin) / setup.time_step).astype(np.int64)
+    if targets.ndim != 1 or targets.size < 1 or targets[0] < 0 or np.any(np.diff(targets) < 0):
+        raise ModelError("times must be one or more, increase, and not lie before the initial state")
+    return targets
+
+
+def chunks(stepper: Stepper, target: int) -> Iterator[int]:
+    """Advance to a step; yields the steps taken now and then, for progress and Ctrl-C."""
+    while stepper.steps < target:
+        stepper.advance(min(_CHUNK, target - stepper.steps))
+        yield stepper.steps
+
+
 def march(
     setup: Setup,
     initial: State,
@@ -139,14 +175,11 @@ def march(
     RunFailure
         As :meth:`Stepper.advance`.
     """
-    targets = np.rint((np.asarray(times, dtype=float) - initial.time) / setup.time_step).astype(np.int64)
-    if targets.ndim != 1 or targets.size < 1 or targets[0] < 0 or np.any(np.diff(targets) < 0):
-        raise ModelError("times must be one or more, increase, and not lie before the initial state")
+    targets = target_steps(setup, initial.time, times)
     states = []
     with Stepper(setup, initial, threads) as stepper:
         for target in targets:
-            while stepper.steps < target:
-                stepper.advance(min(_CHUNK, int(target) - stepper.steps))
+            for _ in chunks(stepper, int(target)):
                 if progress:
                     progress(stepper.steps, int(targets[-1]))
             states.append(stepper.state)

@@ -1,26 +1,29 @@
 """A checked case run with the Godunov scheme."""
 
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
-import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from cases.schema import Case
 from cases.solver_settings import GodunovSolver
-from solver.boundary import NonReflectingOutlet, ResistanceOutlet
+from solver.boundary import NonReflectingOutlet, Outlet, ResistanceOutlet, WindkesselOutlet
+from solver.columns import columns_of
+from solver.diagnostics import Columns
 from solver.errors import ModelError
-from solver.from_case import model_of
-from solver.godunov import Progress, march
+from solver.from_case import monitor_of
+from solver.godunov import Stepper, chunks, march, target_steps
 from solver.godunov_setup import Setup, State, held, load, reference_state
 from solver.model import Model
 from solver.model import State as SteadyState
-from solver.profiles import AVERAGE_EXPONENT, continuity_exponent
-from solver.result import CellHistory, cell_dataset, cell_flow
+from solver.profiles import AVERAGE_EXPONENT
 from solver.schemes.layout import REST_VELOCITY
 from solver.smooth_wall import smooth_wall
 from solver.steady import steady_state
 from solver.stepper import offsets
+from solver.walk import Kept, Stop
 from solver.wall_from_case import healthy_and_calcified, patch_of
 
 THREADS = 2
@@ -35,17 +38,11 @@ def setup_of(case: Case, model: Model) -> Setup:
     Raises
     ------
     ModelError
-        For a wall law but thin and thick, a sharp calcification, a flow inlet, or an outlet that this
-        scheme lacks.
+        For a wall law but thin and thick, or a sharp calcification.
     """
-    settings, outlet = case.solver, model.outlet
+    settings = case.solver
     if not isinstance(settings, GodunovSolver):
         raise ModelError(f"scheme {settings.scheme!r}; this run needs godunov")
-    if model.inlet.kind == "flow":
-        raise ModelError("scheme godunov needs an inlet of kind velocity or pressure")
-    if not isinstance(outlet, ResistanceOutlet | NonReflectingOutlet):
-        raise ModelError("scheme godunov needs an outlet of kind resistance or non_reflecting")
-    resistance = outlet.resistance if isinstance(outlet, ResistanceOutlet) else 0.0
     return Setup(
         grid=model.grid,
         time_step=settings.time_step,
@@ -56,14 +53,28 @@ def setup_of(case: Case, model: Model) -> Setup:
         wall=smooth_wall(model.grid, patch_of(case), *healthy_and_calcified(case)),
         inlet_kind=model.inlet.kind,
         inlet=model.inlet.signal,
-        outlet_kind=outlet.flow if isinstance(outlet, ResistanceOutlet) else "non_reflecting",
-        resistance=resistance,
         offset=lambda times: offsets(model, times),
+        **_outlet(model.outlet),
         limiter=settings.limiter,
         closure=settings.closure,
         viscous_exchange=settings.coefficients,
         exponent_gradient=settings.coefficients,
     )
+
+
+def _outlet(outlet: Outlet) -> dict[str, Any]:
+    """Fields of the set-up for an outlet; one of prescribed pressure has no resistance."""
+    if isinstance(outlet, ResistanceOutlet):
+        return {"outlet_kind": outlet.flow, "resistance": outlet.resistance}
+    if isinstance(outlet, WindkesselOutlet):
+        return {
+            "outlet_kind": "windkessel",
+            "resistance": outlet.proximal_resistance,
+            "distal_resistance": outlet.distal_resistance,
+            "capacitance": outlet.compliance,
+            "venous_pressure": outlet.venous_pressure,
+        }
+    return {"outlet_kind": "non_reflecting" if isinstance(outlet, NonReflectingOutlet) else "section"}
 
 
 def initial_columns(case: Case, model: Model, setup: Setup) -> State:
@@ -73,7 +84,7 @@ def initial_columns(case: Case, model: Model, setup: Setup) -> State:
     the thesis (3.3.2): where β varies this scheme does not keep another scheme's steady state.
     """
     if case.solver.start == "rest":
-        return reference_state(setup)
+        return replace(reference_state(setup), reservoir=model.reference_pressure)
     healthy, _ = healthy_and_calcified(case)
     before = replace(model, stiffness=np.full_like(model.stiffness, healthy))
     start = _columns(before, steady_state(before, float(model.inlet.signal(0.0))))
@@ -91,48 +102,55 @@ def initial_columns(case: Case, model: Model, setup: Setup) -> State:
 
 def _columns(model: Model, steady: SteadyState) -> State:
     """State on inlet, cells and outlet from one of the semi-implicit scheme."""
-    load_out = np.asarray(steady.outlet_pressure) - model.reference_pressure
-    outlet = (model.radius + load_out * model.radius**2 / model.stiffness[-1]) ** 2
-    area = np.vstack([1.5 * steady.area[0] - 0.5 * steady.area[1], steady.area, outlet])
-    flow = np.vstack([steady.flow[0], cell_flow(steady.flow), steady.flow[-1]])
-    exponent = continuity_exponent(flow / area, REST_VELOCITY)
-    return State(0.0, area, flow, np.where(np.isfinite(exponent), exponent, AVERAGE_EXPONENT))
+    area, flow, exponent, _ = columns_of(model, steady)
+    gamma = np.where(np.isfinite(exponent), exponent, AVERAGE_EXPONENT)
+    return State(0.0, area, flow, gamma, 0.0 if steady.reservoir is None else steady.reservoir)
 
 
-def run_godunov(case: Case, times: ArrayLike, progress: Progress | None = None) -> xr.Dataset:
-    """Run a case; see :func:`solver.result.cell_dataset`; at the steps nearest to ``times`` (s).
+def walk_godunov(case: Case, model: Model, times: Floats, kept: Kept | None = None) -> Iterator[Stop]:
+    """Run a case through the steps nearest to ``times`` (s), the first its start or where ``kept`` was left.
 
     Raises
     ------
     SolverError
-        As :func:`setup_of`, the march to the steady start, and the scheme.
+        As :func:`setup_of`, the march to the steady start, the scheme and the case's limits raise it.
     """
-    model = model_of(case)
     setup = setup_of(case, model)
-    wanted = np.asarray(times, dtype=float)
-    run = march(setup, initial_columns(case, model, setup), wanted, THREADS, progress)
-    area = np.array([state.area[1:-1] for state in run.states])
-    cells = CellHistory(
-        times=wanted,
-        area=area,
-        flow=np.array([state.flow[1:-1] for state in run.states]),
-        pressure=model.pressure(area),
-        exponent=np.array([state.exponent[1:-1] for state in run.states]),
-        mass_defect=_mass_defect(model, run.states),
-    )
-    return cell_dataset(model, cells).assign_attrs(
-        scheme="godunov", time_step_s=setup.time_step, steps=run.steps, courant_number=run.courant
-    )
+    state = initial_columns(case, model, setup) if kept is None else _state(kept)
+    begin = 0 if kept is None else int(kept["steps"])
+    monitor = monitor_of(case, model, None if kept is None else kept["history"])
+    dt = setup.time_step
+    with Stepper(setup, state, THREADS, begin) as stepper:
+        for time, target in zip(times, target_steps(setup, 0.0, times), strict=True):
+            stepper.begin_interval()
+            for _ in chunks(stepper, int(target)):
+                pass
+            old, state = state, stepper.state
+            columns = Columns(state.area, state.flow, state.exponent, _pressure(setup, state))
+            defect = _mass_defect(model, old, state, stepper.passed, dt)
+            diagnostics = monitor.look(state.time, columns, dt, defect)
+            left = _kept(state) | {"history": monitor.history, "steps": np.asarray(stepper.steps)}
+            yield Stop(float(time), columns, diagnostics, stepper.steps - begin, 0, dt, left)
 
 
-def _mass_defect(model: Model, states: list[State]) -> Floats:
-    """Inflow − outflow − dV/dt over the inflow, dV/dt by central differences between the states."""
-    times = np.array([state.time for state in states])
-    volume = np.array([0.5 * model.grid.dphi * model.grid.dx * state.area[1:-1].sum() for state in states])
-    inflow = np.array([0.5 * model.grid.dphi * state.flow[0].sum() for state in states])
-    outflow = np.array([0.5 * model.grid.dphi * state.flow[-1].sum() for state in states])
-    if times.size < 3:
-        return np.zeros(times.size)
-    change = np.gradient(volume, times)
-    size = np.maximum(np.abs(inflow), REST_VELOCITY * np.pi * model.radius**2)
-    return np.asarray((inflow - outflow - change) / size)
+def _mass_defect(model: Model, old: State, new: State, passed: Floats, time_step: float) -> float:
+    """Inflow − outflow − change of volume over the inflow; ``passed`` (m³) becomes the trapezoidal rule's."""
+    section = 0.5 * model.grid.dphi
+    ends = section * (old.flow[[0, -1]] - new.flow[[0, -1]]).sum(axis=1)
+    inflow, outflow = passed + 0.5 * time_step * ends
+    change = section * model.grid.dx * float(np.sum(new.area[1:-1] - old.area[1:-1]))
+    rest = REST_VELOCITY * np.pi * model.radius**2 * time_step
+    return float((inflow - outflow - change) / max(abs(inflow), abs(outflow), rest))
+
+
+def _pressure(setup: Setup, state: State) -> Floats:
+    strain = (np.sqrt(state.area) - setup.radius) / setup.radius**2
+    return np.asarray(setup.reference_pressure + setup.wall.stiffness * strain)
+
+
+def _kept(state: State) -> Kept:
+    return {part.name: np.asarray(getattr(state, part.name)) for part in fields(State)}
+
+
+def _state(kept: Kept) -> State:
+    return State(float(kept["time"]), kept["area"], kept["flow"], kept["exponent"], float(kept["reservoir"]))

@@ -24,11 +24,16 @@ LIMITERS = {
     "monotonized_central": layout.MONOTONIZED_CENTRAL,
 }
 CLOSURES = {"average": layout.AVERAGE, "maximum": layout.MAXIMUM, "least_squares": layout.LEAST_SQUARES}
-INLETS = {"velocity": layout.VELOCITY_INLET, "pressure": layout.PRESSURE_INLET}
+INLETS = {
+    "velocity": layout.VELOCITY_INLET,
+    "pressure": layout.PRESSURE_INLET,
+    "flow": layout.FLOW_INLET,
+}
 OUTLETS = {
     "row": layout.ROW_RESISTANCE,
     "section": layout.SECTION_RESISTANCE,
     "non_reflecting": layout.NON_REFLECTING,
+    "windkessel": layout.WINDKESSEL,
 }
 COEFFICIENTS = ("corrected", "printed")
 
@@ -58,16 +63,18 @@ class Setup:
     wall : SmoothWall
         The wall, or the one that ``wall_load`` ends on.
     inlet_kind : str
-        "velocity" or "pressure".
+        "velocity", "pressure" or "flow".
     inlet : Signal
-        Mean velocity (m/s) or pressure (Pa) at the inlet, a function of times (s).
+        Mean velocity (m/s), pressure (Pa) or the section's flow rate (m³/s) at the inlet over times (s).
     outlet_kind : str
-        "row" (P = P_res + R_res Q of each row), "section" (one pressure, the section's ½∮Q dφ) or
-        "non_reflecting".
+        "row" (P = P_res + R_res Q of each row), "section" (one pressure, the section's ½∮Q dφ; with no
+        resistance a pressure outlet), "non_reflecting" or "windkessel".
     resistance : float
-        R_res, Pa s/m³.
+        R_res, or the Windkessel's R₁, Pa s/m³.
     offset : Signal
         P_res, Pa.
+    distal_resistance, capacitance, venous_pressure : float
+        The Windkessel's R₂, Pa s/m³, C, m³/Pa, and P_v, Pa.
     wall_before : SmoothWall or None
         Wall at ``wall_load`` 0, for a wall that changes: β = before + load·(wall − before).
     wall_load : Signal
@@ -91,6 +98,9 @@ class Setup:
     outlet_kind: str
     resistance: float = 0.0
     offset: Signal = field(default_factory=lambda: held(0.0))
+    distal_resistance: float = 1.0
+    capacitance: float = 1.0
+    venous_pressure: float = 0.0
     reference_pressure: float = 0.0
     wall_before: SmoothWall | None = None
     wall_load: Signal = field(default_factory=lambda: held(1.0))
@@ -111,7 +121,7 @@ class Setup:
         ):
             if getattr(self, name) not in allowed:
                 raise ModelError(f"{name} = {getattr(self, name)!r}; allowed: {', '.join(allowed)}")
-        for name in ("time_step", "radius", "density", "fixed_exponent"):
+        for name in ("time_step", "radius", "density", "fixed_exponent", "distal_resistance", "capacitance"):
             if not (np.isfinite(getattr(self, name)) and getattr(self, name) > 0):
                 raise ModelError(f"{name} = {getattr(self, name)}; allowed: positive")
         shape = (self.grid.n_x + 2, self.grid.n_phi)
@@ -134,6 +144,9 @@ class Setup:
             kinematic_viscosity=self.viscosity / self.density,
             reference_pressure=self.reference_pressure,
             resistance=self.resistance,
+            distal_resistance=self.distal_resistance,
+            capacitance=self.capacitance,
+            venous_pressure=self.venous_pressure,
             inlet=INLETS[self.inlet_kind],
             outlet=OUTLETS[self.outlet_kind],
             limiter=LIMITERS[self.limiter],
@@ -155,12 +168,15 @@ class State:
         s.
     area, flow, exponent : ndarray (n_x + 2, n_phi)
         A = R², m²; Q = uR², m³/s; γ.
+    reservoir : float
+        P_c of a Windkessel, Pa.
     """
 
     time: float
     area: Floats
     flow: Floats
     exponent: Floats
+    reservoir: float = 0.0
 
 
 def reference_state(setup: Setup) -> State:

@@ -19,6 +19,7 @@ ROUND = 8  # steps between two exchanges of copies
 OVERLAP = 2 * ROUND + 1  # columns copied
 
 Outcome = tuple[int, int, int, int]
+ALONG = tuple(name for name in Fields._fields if name != "reservoir")  # laid out along the artery
 STATE = ("area", "flow", "exponent", "root", "inverse_root")
 
 
@@ -52,13 +53,19 @@ def cut(fields: Fields, ramp: Ramp, parameters: Parameters, count: int) -> list[
                 int(first),
                 int(begin),
                 int(end),
-                Fields(*(np.array(values[part]) for values in fields)),
+                _fields({name: getattr(fields, name)[part] for name in ALONG}, fields),
                 Ramp(*(np.array(values[part]) for values in ramp)),
                 own,
                 workspace(own.columns, own.n_phi),
             )
         )
     return slabs
+
+
+def _fields(along: dict[str, NDArray[np.float64]], behind: Fields) -> Fields:
+    """Copy fields along a part of the artery, and what lies behind the outlet."""
+    copied = {name: np.array(values) for name, values in along.items()}
+    return Fields(**copied, reservoir=behind.reservoir.copy())
 
 
 def _columns(slab: Slab, values: NDArray[np.float64], begin: int, end: int) -> NDArray[np.float64]:
@@ -68,13 +75,11 @@ def _columns(slab: Slab, values: NDArray[np.float64], begin: int, end: int) -> N
 
 def gather(slabs: list[Slab]) -> Fields:
     """Put the slabs' own columns together: flat copies."""
-    names = Fields._fields
-    return Fields(
-        *(
-            np.concatenate([_columns(s, getattr(s.fields, name), s.begin, s.end) for s in slabs])
-            for name in names
-        )
-    )
+    along = {
+        name: np.concatenate([_columns(s, getattr(s.fields, name), s.begin, s.end) for s in slabs])
+        for name in ALONG
+    }
+    return _fields(along, slabs[-1].fields)
 
 
 def _renew(slabs: list[Slab]) -> None:

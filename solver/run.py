@@ -8,7 +8,7 @@ import hashlib
 import os
 import shutil
 from collections.abc import Iterable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -17,24 +17,31 @@ import netCDF4
 import numpy as np
 
 from cases.schema import Case
-from solver.case_run import run_case
+from solver.case_run import counts, walk
+from solver.diagnostics import Diagnostics
 from solver.errors import SolverError
 from solver.files import write_netcdf
-from solver.from_case import default_output_times, error_tolerance, initial_state, model_of
-from solver.model import Model, State
-from solver.result import to_dataset
-from solver.simulate import Progress, Snapshot, Trajectory, collect, snapshots
+from solver.from_case import default_output_times, model_of
+from solver.model import Model
+from solver.result import CellHistory, cell_dataset
+from solver.simulate import Progress
+from solver.walk import Kept, Stop, history_of
 
 PIECE = 25  # states
 
 
 @dataclass(frozen=True)
 class Piece:
-    """Consecutive states of a run, the state at their end, and the Δt to try from there, s."""
+    """Consecutive states of a run, what it took to compute them, and what the scheme needs to go on.
 
-    trajectory: Trajectory
-    end: State
-    next_step: float
+    ``steps`` and ``sweeps`` are those of this piece; ``longest_step`` in s.
+    """
+
+    cells: CellHistory
+    steps: int
+    sweeps: int
+    longest_step: float
+    kept: Kept
 
 
 def pieces_folder(result: Path) -> Path:
@@ -94,7 +101,7 @@ def run_to_file(
     Returns
     -------
     dict
-        Global attributes of the result.
+        ``steps``, ``time_step_s`` and ``largest``, the largest magnitude of each diagnostic by name.
 
     Raises
     ------
@@ -104,39 +111,21 @@ def run_to_file(
     folder = _prepare(pieces_folder(result), identity, resume)
     model, times = model_of(case), default_output_times(case)
     done = sorted(folder.glob("*.npz"))
-    last = _read(model, done[-1]) if done else None
-    start = initial_state(case, model) if last is None else last.end
-    first = 0 if last is None else int(np.searchsorted(times, last.end.time))
-    taken: list[Snapshot] = []
+    first, kept = (int(done[-1].stem), _read(done[-1]).kept) if done else (0, None)
+    taken: list[Stop] = []
     steps = sweeps = 0
-    next_step = None if last is None else last.next_step
-    walk = snapshots(model, times[first:], case.solver.time_step, start, error_tolerance(case), next_step)
-    for number, snapshot in enumerate(walk, start=first):
-        if last is None or number > first:
-            taken.append(snapshot)
-        progress(snapshot.state.time, float(times[-1]))
+    for number, stop in enumerate(walk(case, model, times[first:], kept), start=first):
+        if kept is None or number > first:
+            taken.append(stop)
+        progress(float(times[number]), float(times[-1]))
         if len(taken) == PIECE or (number == times.size - 1 and taken):
-            piece = collect(model, taken)
-            own = replace(piece, steps=piece.steps - steps, sweeps=piece.sweeps - sweeps)
-            _write(folder / f"{number:08d}.npz", own, snapshot)
-            taken, steps, sweeps = [], piece.steps, piece.sweeps
-    attributes = _join(model, sorted(folder.glob("*.npz")), result, attributes)
+            longest = max(each.longest_step for each in taken)
+            piece = Piece(history_of(taken), stop.steps - steps, stop.sweeps - sweeps, longest, stop.kept)
+            _write(folder / f"{number:08d}.npz", piece)
+            taken, steps, sweeps = [], stop.steps, stop.sweeps
+    found = _join(case, model, sorted(folder.glob("*.npz")), result, attributes)
     shutil.rmtree(folder)
-    return attributes
-
-
-def run_whole(
-    case: Case, result: Path, attributes: dict[str, Any], resume: bool, progress: Progress
-) -> dict[str, Any]:
-    """Run a case that leaves no pieces (scheme godunov) and write its result file.
-
-    Parameters, return value and errors are those of :func:`run_to_file`.
-    """
-    if resume:
-        raise SolverError(f"scheme {case.solver.scheme} keeps no pieces to resume from; run without --resume")
-    dataset = run_case(case, default_output_times(case), progress).assign_attrs(attributes)
-    write_netcdf(dataset, result)
-    return dict(dataset.attrs)
+    return found
 
 
 def _prepare(folder: Path, identity: str, resume: bool) -> Path:
@@ -156,14 +145,15 @@ def _prepare(folder: Path, identity: str, resume: bool) -> Path:
     return folder
 
 
-_ARRAYS = ("times", "area", "pressure", "flow", "mass_defect")
+_ARRAYS = ("times", "area", "flow", "pressure", "exponent")
 _NUMBERS = ("steps", "sweeps", "longest_step")
 
 
-def _write(path: Path, trajectory: Trajectory, end: Snapshot) -> None:
-    values = {name: getattr(trajectory, name) for name in (*_ARRAYS, *_NUMBERS)}
-    values |= {f"end_{part.name}": getattr(end.state, part.name) for part in fields(State)}
-    values["next_step"] = end.next_step
+def _write(path: Path, piece: Piece) -> None:
+    values = {name: getattr(piece.cells, name) for name in _ARRAYS}
+    values |= {name: np.asarray(getattr(piece, name)) for name in _NUMBERS}
+    values |= {f"diagnostic_{name}": found for name, found in piece.cells.diagnostics.items()}
+    values |= {f"kept_{name}": found for name, found in piece.kept.items()}
     partial = path.with_suffix(".part")
     try:
         with partial.open("wb") as stream:
@@ -175,28 +165,32 @@ def _write(path: Path, trajectory: Trajectory, end: Snapshot) -> None:
         raise SolverError(f"{path}: cannot be written: {error.strerror or error}") from error
 
 
-def _read(model: Model, path: Path) -> Piece:
+def _read(path: Path) -> Piece:
     with np.load(path) as stored:
+        diagnostics = {name: stored[f"diagnostic_{name}"] for name in Diagnostics._fields}
         arrays = {name: stored[name] for name in _ARRAYS}
+        cells = CellHistory(**arrays, diagnostics=diagnostics)
         numbers = {name: stored[name].item() for name in _NUMBERS}
-        next_step = float(stored["next_step"])
-        end = {part.name: stored[f"end_{part.name}"] for part in fields(State)}
-    end |= {name: float(end[name]) for name in ("time", "reservoir")}
-    return Piece(Trajectory(model=model, **arrays, **numbers), State(**end), next_step)
+        names = [name for name in stored.files if name.startswith("kept_")]
+        return Piece(cells, **numbers, kept={name.removeprefix("kept_"): stored[name] for name in names})
 
 
-def _join(model: Model, paths: list[Path], result: Path, attributes: dict[str, Any]) -> dict[str, Any]:
+def _join(
+    case: Case, model: Model, paths: list[Path], result: Path, attributes: dict[str, Any]
+) -> dict[str, Any]:
     """Write the result from its pieces, one in memory at a time."""
     partial = result.with_name(f".{result.name}.{os.getpid()}.part")
     steps = sweeps = 0
     longest = 0.0
+    largest = dict.fromkeys(Diagnostics._fields, float("nan"))
     try:
         for path in paths:
-            trajectory = _read(model, path).trajectory
-            steps, sweeps = steps + trajectory.steps, sweeps + trajectory.sweeps
-            longest = max(longest, trajectory.longest_step)
-            total = replace(trajectory, steps=steps, sweeps=sweeps, longest_step=longest)
-            dataset = to_dataset(total).assign_attrs(attributes)
+            piece = _read(path)
+            steps, sweeps = steps + piece.steps, sweeps + piece.sweeps
+            longest = max(longest, piece.longest_step)
+            for name, values in piece.cells.diagnostics.items():
+                largest[name] = float(np.fmax.reduce(np.abs(values), initial=largest[name]))
+            dataset = cell_dataset(model, piece.cells).assign_attrs(attributes)
             if path == paths[0]:
                 write_netcdf(dataset, partial, unlimited=("time",))
             else:
@@ -205,10 +199,10 @@ def _join(model: Model, paths: list[Path], result: Path, attributes: dict[str, A
                     for name in (str(n) for n in dataset.variables if "time" in dataset[n].dims):
                         stored[name][count:] = dataset[name].to_numpy()
         with netCDF4.Dataset(partial, "a") as stored:
-            stored.setncatts({"steps": steps, "iteration_sweeps": sweeps, "time_step_s": longest})
+            stored.setncatts(counts(case, steps, sweeps, longest))
         partial.replace(result)
     except OSError as error:
         raise SolverError(f"{result}: cannot be written: {error.strerror or error}") from error
     finally:
         partial.unlink(missing_ok=True)
-    return {"steps": steps, "time_step_s": longest}
+    return {"steps": steps, "time_step_s": longest, "largest": largest}

@@ -1,12 +1,14 @@
 """Run the semi-implicit scheme through time, from one wanted instant to the next."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from solver.columns import columns_of
+from solver.diagnostics import Columns, Diagnostics, Limits, Monitor, by_name
 from solver.errors import ModelError, NotConverged, RunFailure
 from solver.model import Model, State
 from solver.steady import steady_state
@@ -27,8 +29,10 @@ class Snapshot:
     ----------
     state : State
         An independent copy.
-    mass_defect : float
-        Inflow − outflow − change of volume since the state before, over the inflow.
+    columns : Columns
+        The same on inlet, cells and outlet.
+    diagnostics : Diagnostics
+        What the run is watched by.
     steps, sweeps : int
         Time steps computed so far, trials of the error control among them, and sweeps of their iterations.
     longest_step : float
@@ -38,7 +42,8 @@ class Snapshot:
     """
 
     state: State
-    mass_defect: float
+    columns: Columns
+    diagnostics: Diagnostics
     steps: int
     sweeps: int
     longest_step: float
@@ -65,6 +70,8 @@ class Trajectory:
         Time steps taken, and sweeps of their iterations in all.
     longest_step : float
         Longest Δt used, s.
+    diagnostics : dict of ndarray (n_times,)
+        All diagnostics by name; see :class:`solver.diagnostics.Diagnostics`.
     """
 
     model: Model
@@ -76,6 +83,7 @@ class Trajectory:
     steps: int
     sweeps: int
     longest_step: float
+    diagnostics: dict[str, NDArray[np.float64]] = field(default_factory=dict)
 
 
 def checked_times(output_times: ArrayLike, time_step: float) -> NDArray[np.float64]:
@@ -106,18 +114,29 @@ def snapshots(
     initial: State | None = None,
     error_tolerance: float | None = None,
     first_step: float | None = None,
+    monitor: Monitor | None = None,
 ) -> Iterator[Snapshot]:
     """Yield the state at each output time, the first included; a step ends on each.
 
-    Parameters are those of :func:`simulate`, and the Δt (s) that the error control tries first. A run
-    continued from any snapshot's state and next step gives the same bits as one that was not interrupted.
+    Parameters are those of :func:`simulate`, the Δt (s) that the error control tries first, and the monitor
+    that watches the run (default: one without limits). A run continued from any snapshot's state, next step
+    and monitor's history gives the same bits as one that was not interrupted.
     """
     times = checked_times(output_times, time_step)
     start = initial.copy() if initial else steady_state(model, float(model.inlet.signal(times[0])))
     start.time = float(times[0])
     stepper = Stepper(model, start)
     wanted = time_step if first_step is None else first_step
-    yield Snapshot(stepper.state(), 0.0, 0, 0, 0.0, wanted)
+    watch = monitor or Monitor(model, Limits())
+    defect = longest = 0.0
+
+    def snapshot() -> Snapshot:
+        state = stepper.state()
+        columns = columns_of(model, state)
+        diagnostics = watch.look(state.time, columns, longest, defect)
+        return Snapshot(state, columns, diagnostics, stepper.steps, stepper.sweeps, longest, wanted)
+
+    yield snapshot()
     for begin, end in pairwise(times.tolist()):
         if error_tolerance is None:
             count = max(1, int(np.ceil((end - begin) / time_step * (1 - 1e-12))))
@@ -126,7 +145,7 @@ def snapshots(
         else:
             defect, longest, wanted = _adaptive(stepper, begin, end, time_step, wanted, error_tolerance)
         stepper.time = float(end)
-        yield Snapshot(stepper.state(), defect, stepper.steps, stepper.sweeps, longest, wanted)
+        yield snapshot()
 
 
 def _adaptive(
@@ -205,6 +224,7 @@ def simulate(
     initial: State | None = None,
     progress: Progress | None = None,
     error_tolerance: float | None = None,
+    limits: Limits | None = None,
 ) -> Trajectory:
     """Run from ``initial`` through the output times, each of which a step ends on.
 
@@ -222,6 +242,8 @@ def simulate(
         Called with (time reached, last time) after each interval.
     error_tolerance : float, optional
         Local error of a step, relative, below which Δt is chosen; default: no error control.
+    limits : Limits, optional
+        Diagnostics that stop the run, evaluated at the output times.
 
     Returns
     -------
@@ -232,11 +254,13 @@ def simulate(
     ModelError
         Times that do not increase, a Δt that is not positive, or an initial state of another grid.
     RunFailure
-        NoAdmissibleProfile, WallCollapse, BeyondWallTable, NotConverged or NotFinite, with time and cell.
+        NoAdmissibleProfile, WallCollapse, BeyondWallTable, NotConverged or NotFinite, with time and cell; or
+        that of a limit that is exceeded.
     """
     times = checked_times(output_times, time_step)
     taken = []
-    for snapshot in snapshots(model, times, time_step, initial, error_tolerance):
+    monitor = Monitor(model, limits or Limits())
+    for snapshot in snapshots(model, times, time_step, initial, error_tolerance, monitor=monitor):
         taken.append(snapshot)
         if progress:
             progress(snapshot.state.time, float(times[-1]))
@@ -245,14 +269,16 @@ def simulate(
 
 def collect(model: Model, taken: list[Snapshot]) -> Trajectory:
     """Join snapshots to a trajectory."""
+    diagnostics = by_name([snapshot.diagnostics for snapshot in taken])
     return Trajectory(
         model=model,
         times=np.array([snapshot.state.time for snapshot in taken]),
         area=np.array([snapshot.state.area for snapshot in taken]),
         pressure=np.array([snapshot.state.pressure for snapshot in taken]),
         flow=np.array([snapshot.state.flow for snapshot in taken]),
-        mass_defect=np.array([snapshot.mass_defect for snapshot in taken]),
+        mass_defect=diagnostics["mass_defect"],
         steps=taken[-1].steps,
         sweeps=taken[-1].sweeps,
         longest_step=max(snapshot.longest_step for snapshot in taken),
+        diagnostics=diagnostics,
     )

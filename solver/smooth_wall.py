@@ -54,7 +54,9 @@ def smooth_wall(grid: Grid, patch: Patch | None, healthy: float, calcified: floa
         uniform = np.full((x.size, grid.n_phi), float(healthy))
         return SmoothWall(uniform, np.zeros_like(uniform))
     if patch.x_transition is None or (patch.phi is not None and patch.phi_transition is None):
-        raise ModelError("the Godunov scheme needs a smooth calcification: give its transition lengths")
+        raise ModelError(
+            "scheme godunov needs a smooth calcification (its source holds ∂β/∂x): give transition lengths"
+        )
     offset = (x - np.clip(x, *patch.x)) / patch.x_transition
     distance = np.hypot(offset[:, None], _distance_around(grid, patch)[None, :])
     near = (distance > 0) & (distance < 1)

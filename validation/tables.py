@@ -10,7 +10,14 @@ from rich.console import Console
 from rich.progress import Progress
 
 from solver.errors import RunFailure
-from validation.thesis_tables import pulsatile_tables, pulse, stability, steady_flow, steady_tables
+from validation.thesis_tables import (
+    pulsatile_tables,
+    pulse,
+    scheme_agreement,
+    stability,
+    steady_flow,
+    steady_tables,
+)
 from validation.thesis_tables.experiment import Entry, Experiment, Result
 from validation.thesis_tables.presentation import print_rows, write_csv, write_json
 from validation.thesis_tables.store import Store
@@ -23,6 +30,7 @@ EXPERIMENTS: dict[str, Experiment] = {
         stability.EXPERIMENT,
         *steady_tables.EXPERIMENTS,
         *pulsatile_tables.EXPERIMENTS,
+        scheme_agreement.EXPERIMENT,
     )
 }
 

@@ -28,7 +28,7 @@ from solver.schemes.godunov_layout import (
     fill_ghosts,
 )
 from solver.schemes.godunov_sources import exponent_slopes, refresh, update
-from solver.schemes.godunov_steady import Stopping, is_steady
+from solver.schemes.godunov_steady import Stopping, is_steady, section_flow
 from solver.schemes.godunov_waves import correct, decompose, decompose_end, uncorrected
 
 
@@ -133,6 +133,10 @@ def advance(
         status, column, row = step(fields, work, parameters, inlets[n], offsets[n])
         if status != OK:
             return status, column, row, n
+        if parameters.has_inlet:
+            work.passed[0] += section_flow(fields, parameters, 0)
+        if parameters.has_outlet:
+            work.passed[1] += section_flow(fields, parameters, parameters.columns - 1)
         if stopping.active and is_steady(fields, work, parameters, stopping):
             return STEADY, 0, 0, n + 1
     return OK, 0, 0, inlets.size

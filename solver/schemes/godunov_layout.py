@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 
 UPWIND, LAX_WENDROFF, VAN_LEER, SUPERBEE, MINMOD, MONOTONIZED_CENTRAL = range(6)
 FIXED, AVERAGE, MAXIMUM, LEAST_SQUARES = range(4)
-VELOCITY_INLET, PRESSURE_INLET = range(2)
-ROW_RESISTANCE, SECTION_RESISTANCE, NON_REFLECTING = range(3)
+VELOCITY_INLET, PRESSURE_INLET, FLOW_INLET = range(3)
+ROW_RESISTANCE, SECTION_RESISTANCE, NON_REFLECTING, WINDKESSEL = range(4)
 OK, NO_ADMISSIBLE_PROFILE, WALL_COLLAPSE, STEADY = range(4)
 
 AVERAGE_AXIS_RATIO = 2.0  # (γ_avg + 2)/γ_avg with γ_avg = 2, (2.2.56)
@@ -44,6 +44,9 @@ class Parameters(NamedTuple):
     kinematic_viscosity: float
     reference_pressure: float
     resistance: float
+    distal_resistance: float
+    capacitance: float
+    venous_pressure: float
     inlet: int
     outlet: int
     limiter: int
@@ -59,6 +62,7 @@ class Fields(NamedTuple):
 
     ``root`` is √A and ``inverse_root`` 1/√A; ``stiffness`` β (Pa m) and its derivative ``stiffness_slope``
     ∂_xβ (Pa) are those of the present instant; ``fastest`` is the largest |λ| yet met on each interface.
+    ``reservoir`` (1,) is the pressure P_c of a Windkessel's capacitor, Pa.
     """
 
     area: Array
@@ -69,6 +73,7 @@ class Fields(NamedTuple):
     stiffness: Array
     stiffness_slope: Array
     fastest: Array
+    reservoir: Array
 
 
 class Ramp(NamedTuple):
@@ -81,7 +86,7 @@ class Ramp(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Scratch of a step, flat arrays of columns × stride, and what the stopping criteria compare."""
+    """Scratch of a step, flat arrays of columns × stride; what the stopping criteria compare; what passed."""
 
     slow_speed: Array
     fast_speed: Array
@@ -95,6 +100,7 @@ class Workspace(NamedTuple):
     velocity: Array
     area_before: Array
     flow_before: Array
+    passed: Array  # (2,): sums of the section's flow rate on inlet and outlet after each step, m³/s
 
 
 def stride(n_phi: int) -> int:
@@ -105,7 +111,8 @@ def stride(n_phi: int) -> int:
 def workspace(columns: int, n_phi: int) -> Workspace:
     """Scratch for ``columns`` columns (ends included) of ``n_phi`` rows."""
     size = columns * stride(n_phi)
-    return Workspace(*(np.zeros(size) for _ in Workspace._fields))
+    scratch = {name: np.zeros(size) for name in Workspace._fields}
+    return Workspace(**(scratch | {"passed": np.zeros(2)}))
 
 
 def flattened(values: Array) -> Array:

@@ -172,3 +172,25 @@ def test_the_most_cycles_are_saved_by_default(folder):
 def test_columns_have_limits_too(folder, name, text, base, stated, problem):
     (folder.path / "data" / name).write_text(text)
     assert folder.problems((base, stated)) == [f"x.yaml, {problem}"]
+
+
+def test_limits_of_diagnostics_are_read_and_bounded(folder):
+    stated = ("average", "average\n  limits: {courant_number: 1, energy_defect: 0.5 %}")
+    limits = folder.load(stated).variants["none"].solver.limits
+    assert (limits.courant_number, limits.energy_defect, limits.mass_defect) == (1.0, 0.005, None)
+    (problem,) = folder.problems(("average", "average\n  limits: {mass_defect: 2}"))
+    assert problem == (
+        'x.yaml, line 19: solver.limits.mass_defect: 2; allowed: a ratio from 1e-15 to 1, e.g. "0.1 %"'
+    )
+    (problem,) = folder.problems(("average", "average\n  limits: {energy: 2}"))
+    assert problem.startswith("x.yaml, line 19: solver.limits.energy: unknown")
+
+
+def test_a_limit_on_energy_needs_states_close_together(folder):
+    limits = "average\n  limits: {energy_defect: 1e-3}\n  output_interval: "
+    assert folder.load(("average", f"{limits}16 ms")).variants["none"]
+    (problem,) = folder.problems(("average", f"{limits}17 ms"))
+    assert problem == (
+        "x.yaml, line 20: solver.output_interval: 0.017 s; "
+        "allowed: with limits.energy_defect at most a 50th of the cycle (0.016 s)"
+    )

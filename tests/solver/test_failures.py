@@ -7,6 +7,8 @@ import pytest
 from thesis_artery import DIASTOLE, PATTERNS, SECTION_OUTLET, artery
 
 from solver.boundary import ResistanceOutlet
+from solver.columns import columns_of
+from solver.diagnostics import Limits, Monitor
 from solver.errors import (
     ModelError,
     NoAdmissibleProfile,
@@ -17,10 +19,10 @@ from solver.errors import (
     WallCollapse,
 )
 from solver.model import State, uniform_state
-from solver.result import to_dataset
-from solver.simulate import Trajectory, simulate
+from solver.simulate import simulate
 from solver.steady import steady_state
 from solver.stepper import Stepper
+from solver.walk import Stop, history_of
 from solver.waveform import Waveform
 
 
@@ -97,9 +99,11 @@ def test_a_result_without_profile_is_no_result():
     flow = np.array([state.flow, state.flow])
     flow[1, 4:6, 2] *= 20
     twice = [np.array([part] * 2) for part in (state.area, state.pressure)]
-    run = Trajectory(model, np.array([0.0, 0.1]), *twice, flow, np.zeros(2), 1, 1, 0.1)
+    states = [State(t, a, q, p) for t, a, p, q in zip((0.0, 0.1), *twice, flow, strict=True)]
+    watched = Monitor(model, Limits()).look(0.0, columns_of(model, states[0]), 0.0, 0.0)
+    stops = [Stop(each.time, columns_of(model, each), watched, 1, 1, 0.1, {}) for each in states]
     with pytest.raises(NoAdmissibleProfile, match=r"at t = 0.1 s, i = 4, j = 3$"):
-        to_dataset(run)
+        history_of(stops)
 
 
 @pytest.mark.parametrize("times", [[], [0.0, 0.0], [0.1, 0.0], [0.0, np.nan], [[0.0, 1.0]]])

@@ -26,7 +26,7 @@ def perturbed(setup, seed=1):
     exponent = random.uniform(1.0, 6.0, shape)
     flat = [layout.flattened(v) for v in (area, flow, exponent, setup.wall.stiffness, setup.wall.slope)]
     root = np.sqrt(flat[0])
-    fields = layout.Fields(*flat[:3], root, 1 / root, *flat[3:], np.zeros_like(root))
+    fields = layout.Fields(*flat[:3], root, 1 / root, *flat[3:], np.zeros_like(root), np.zeros(1))
     return area, flow, exponent, fields
 
 

@@ -217,7 +217,7 @@ def test_one_more_criterion_delays_the_steady_state():
     [
         {"limiter": "none"},
         {"closure": "median"},
-        {"inlet_kind": "flow"},
+        {"inlet_kind": "vacuum"},
         {"outlet_kind": "open"},
         {"viscous_exchange": "other"},
         {"time_step": 0.0},

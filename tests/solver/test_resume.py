@@ -98,6 +98,23 @@ def test_interrupted_and_resumed(run, case_file, outlet, control, after):
     assert not pieces_folder(parts).exists()
 
 
+@pytest.mark.parametrize("after", [3, 11])
+def test_the_explicit_scheme_is_resumed_too(run, case_file, after):
+    changed(case_file, "scheme: semi_implicit", "scheme: godunov")
+    changed(case_file, "time_step: 2 ms, cycles: 2", "time_step: 23 us, cycles: 1")
+    changed(case_file, "transition: sharp", "transition: {x: 2.5 mm, phi: 67.5 deg}")
+    changed(case_file, "youngs_modulus: 10 MPa", "youngs_modulus: 0.7 MPa")
+    whole, parts = case_file.with_name("whole.nc"), case_file.with_name("parts.nc")
+    assert run(case_file, "--variant", "patch", "--output", whole) == (0, "")
+    assert run(case_file, "--variant", "patch", "--output", parts, after=after)[0] == 130
+    assert run(case_file, "--variant", "patch", "--output", parts, "--resume") == (0, "")
+    assert_same_bytes(whole, parts)
+    with xr.open_dataset(whole) as result:
+        assert result.attrs["steps"] == round(0.2 / 23e-6)
+        assert 0.1 < float(result["courant_number"].max()) < 1.0
+        assert float(np.abs(result["mass_defect"]).max()) < 0.05
+
+
 def test_interrupted_again_and_again(run, case_file):
     whole, parts = case_file.with_name("whole.nc"), case_file.with_name("parts.nc")
     run(case_file, "--variant", "patch", "--output", whole)
@@ -112,13 +129,13 @@ def test_memory_holds_one_piece(run, case_file, monkeypatch):
     """What is collected at once is a piece, whatever the number of states."""
     changed(case_file, "cycles: 2", "cycles: 9")
     sizes = []
-    collect = running.collect
+    history_of = running.history_of
 
-    def counted(model, taken):
-        sizes.append(len(taken))
-        return collect(model, taken)
+    def counted(stops):
+        sizes.append(len(stops))
+        return history_of(stops)
 
-    monkeypatch.setattr(running, "collect", counted)
+    monkeypatch.setattr(running, "history_of", counted)
     run(case_file, "--variant", "healthy", "--output", case_file.with_name("run.nc"))
     assert sum(sizes) == 91
     assert max(sizes) == 4

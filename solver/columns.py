@@ -1,0 +1,45 @@
+"""A state of the staggered scheme on the columns inlet, cells, outlet."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.diagnostics import Columns
+from solver.model import Model, State
+from solver.profiles import continuity_exponent
+from solver.schemes.layout import REST_VELOCITY
+from solver.schemes.walls import tabulated_area
+from solver.wall import area_from_pressure
+
+Floats = NDArray[np.float64]
+
+
+def columns_of(model: Model, state: State) -> Columns:
+    """Return A, Q, γ and P on inlet, cells and outlet; γ is NaN where none is admissible.
+
+    At the inlet A is extrapolated, and so is P unless it is prescribed; at the outlet P belongs to the state
+    and A follows from the last cell's wall.
+    """
+    pressure = model.pressure(state.area) if state.pressure is None else state.pressure
+    outlet = pressure[-1] if state.outlet_pressure is None else state.outlet_pressure
+    inlet = 1.5 * pressure[0] - 0.5 * pressure[1]
+    if model.inlet.kind == "pressure" and state.inlet_pressure is not None:
+        inlet = state.inlet_pressure
+    area = np.vstack([1.5 * state.area[0] - 0.5 * state.area[1], state.area, outlet_area(model, outlet)])
+    inner = 0.5 * (state.flow[1:] + state.flow[:-1])
+    flow = np.vstack([state.flow[:1], inner, state.flow[-1:]])
+    if model.fixed_exponent is not None:
+        exponent = np.full(area.shape, model.fixed_exponent)
+    else:
+        exponent = continuity_exponent(flow / area, REST_VELOCITY)
+    return Columns(area, flow, exponent, np.vstack([inlet, pressure, outlet]))
+
+
+def outlet_area(model: Model, pressure: Floats) -> Floats:
+    """Return A at pressures (n_phi,) behind the last cells, m²."""
+    table = model.wall_table
+    if table is None:
+        return area_from_pressure(pressure, model.stiffness[-1], model.radius, model.reference_pressure)
+    area, slope = np.empty((1, pressure.size)), np.empty((1, pressure.size))
+    within = np.clip(pressure, table.start, table.end)[None]
+    tabulated_area(within, table.values[-1:], table.start, table.step, area, slope)
+    return np.asarray(area[0])

@@ -1,0 +1,157 @@
+"""Energy, speeds and the continuity condition of one state, for diagnostics (numba kernel).
+
+Multiplied by u = Q/A, the momentum equation (2.2.34) gives, with (2.2.33), the balance of mechanical energy
+per sector and length
+
+    ∂_t(½ρuQ + ∫P dA) + ∂_x[(P + ½ρu²) Q] = ρSuQ − ρu ∂_x[(α−1)uQ],    S = h − 2(γ+2)(μ/ρ)/A
+
+whose right side is what friction and viscous exchange take and what the profile's shape takes.
+Columns are laid out as inlet, cells 1 … n_x, outlet.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from solver.schemes.layout import REST_VELOCITY, Array
+
+
+class Balance(NamedTuple):
+    """Sums and extremes over the artery.
+
+    ``kinetic`` ½∮∫½ρuQ dx dφ, J; ``end_power`` ½∮(P + ½ρu²)Q dφ of the inlet minus that of the outlet, W;
+    ``dissipated`` −½∮∫ρSuQ dx dφ, W; ``profile_power`` ½∮∫ρu ∂_x[(α−1)uQ] dx dφ, W; ``fastest_wave``
+    largest |λ±|, m/s; ``fastest_flow`` max|u|, m/s; ``axis_gap`` largest relative distance of
+    (γ+2)/γ u from its section's mean.
+    """
+
+    kinetic: float
+    end_power: float
+    dissipated: float
+    profile_power: float
+    fastest_wave: float
+    fastest_flow: float
+    axis_gap: float
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _end_power(area: Array, flow: Array, pressure: Array, density: float) -> float:
+    """∑(P + ½ρu²)Q of one column."""
+    total = 0.0
+    for j in range(flow.size):
+        u = flow[j] / area[j]
+        total += (pressure[j] + 0.5 * density * u * u) * flow[j]
+    return total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _excess(area: Array, flow: Array, exponent: Array, result: Array) -> None:
+    """(α−1)uQ with α − 1 = 1/(γ+1)."""
+    for j in range(flow.size):
+        result[j] = flow[j] * flow[j] / (area[j] * (exponent[j] + 1.0))
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+def _section(
+    area: Array, flow: Array, exponent: Array, nu: float, dphi: float, gap: Array, wide: Array
+) -> tuple[float, float]:
+    """∑ uQ and −∑ SuQ of one section; leaves (γ+2)/γ u in ``gap``; ``wide`` (2, n_phi + 2) is scratch."""
+    n = flow.size
+    A, g = wide[0], wide[1]
+    for j in range(n):
+        A[j + 1] = area[j]
+        g[j + 1] = 1.0 / exponent[j]
+    for row in (A, g):
+        row[0] = row[n]
+        row[n + 1] = row[1]
+    over_two, over_square = 0.5 / dphi, 1.0 / (dphi * dphi)
+    carried, lost = 0.0, 0.0
+    for j in range(n):
+        inverse = 1.0 / area[j]
+        u = flow[j] * inverse
+        slope = (A[j + 2] - A[j]) * over_two * inverse
+        bend = (A[j + 2] - 2.0 * A[j + 1] + A[j]) * over_square * inverse
+        g_bend = (g[j + 2] - 2.0 * g[j + 1] + g[j]) * over_square
+        both = exponent[j] + 2.0
+        bracket = 0.5 * bend - 0.25 * both * slope * slope - g_bend
+        axis = both * g[j + 1]
+        carried += u * flow[j]
+        lost += 2.0 * nu * u * u * (both - axis * bracket)
+        gap[j] = axis * u
+    return carried, lost
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _gap_of(axis: Array) -> float:
+    """Largest distance from the mean over the mean; 0 at rest."""
+    mean = float(np.mean(axis))
+    if abs(mean) < REST_VELOCITY:
+        return 0.0
+    largest = 0.0
+    for j in range(axis.size):
+        largest = max(largest, abs(axis[j] - mean))
+    return largest / abs(mean)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def balance(
+    area: Array,
+    flow: Array,
+    exponent: Array,
+    pressure: Array,
+    area_slope: Array,
+    density: float,
+    viscosity: float,
+    dx: float,
+    dphi: float,
+) -> Balance:
+    """Return the balance of one state.
+
+    Parameters
+    ----------
+    area, flow, exponent, pressure : ndarray (n_x + 2, n_phi)
+        A, m²; Q, m³/s; γ; P, Pa.
+    area_slope : ndarray (n_x, n_phi)
+        dA/dP in cells, m²/Pa.
+    density, viscosity : float
+        ρ, kg/m³; μ, Pa s.
+    dx, dphi : float
+        m, rad.
+    """
+    columns, n = area.shape
+    wide, axis = np.empty((2, n + 2)), np.empty(n)
+    left, here, right = np.empty(n), np.empty(n), np.empty(n)
+    carried, lost, shaped, wave, stream, gap = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    _excess(area[0], flow[0], exponent[0], left)
+    _excess(area[1], flow[1], exponent[1], here)
+    for i in range(1, columns - 1):
+        one, two = _section(area[i], flow[i], exponent[i], viscosity / density, dphi, axis, wide)
+        carried += one
+        lost += two
+        gap = max(gap, _gap_of(axis))
+        _excess(area[i + 1], flow[i + 1], exponent[i + 1], right)
+        before = 1.0 if i == 1 else 0.5  # the ends' columns lie on the faces
+        after = 1.0 if i == columns - 2 else 0.5
+        A, Q, gamma, slope = area[i], flow[i], exponent[i], area_slope[i - 1]
+        for j in range(n):
+            u = Q[j] / A[j]
+            shaped += u * (after * (right[j] - here[j]) + before * (here[j] - left[j]))
+            excess = 1.0 / (gamma[j] + 1.0)
+            drift = (1.0 + excess) * u
+            speed = np.sqrt(A[j] / (density * slope[j]) + drift * u * excess)
+            wave = max(wave, abs(drift) + speed)
+            stream = max(stream, abs(u))
+        left, here, right = here, right, left
+    ends = _end_power(area[0], flow[0], pressure[0], density)
+    ends -= _end_power(area[-1], flow[-1], pressure[-1], density)
+    sector = 0.5 * dphi
+    return Balance(
+        0.5 * density * sector * dx * carried,
+        sector * ends,
+        density * sector * dx * lost,
+        density * sector * shaped,
+        wave,
+        stream,
+        gap,
+    )

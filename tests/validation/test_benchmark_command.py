@@ -1,0 +1,74 @@
+"""``python -m validation.benchmark`` gives a well-formed table; how fast is no matter here."""
+
+import json
+
+import pytest
+
+from validation import benchmark
+
+
+@pytest.fixture
+def tiny(tmp_path, monkeypatch):
+    """The benchmark's case, on few cells and for a short cycle."""
+    text = benchmark.CASE.read_text(encoding="utf-8")
+    for old, new in (
+        ("n_x: 120, n_phi: 48, time_step: 1 ms, cycles: 3", "n_x: 12, n_phi: 4, time_step: 1 ms, cycles: 1"),
+        ("waveform: reference_data/waveforms/thesis_inlet.csv", "value: 8 cm/s, period: 20 ms"),
+        ("time_step: 3.125 us", "time_step: 20 us"),
+        ("youngs_modulus: 10 MPa", "youngs_modulus: 0.7 MPa"),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    path = tmp_path / "tiny.yaml"
+    path.write_text(text, encoding="utf-8")
+    monkeypatch.setattr(benchmark, "CASE", path)
+    return path
+
+
+@pytest.mark.parametrize(("quick", "repeat"), [(False, 2), (True, 1)])
+def test_every_row_is_measured_shown_and_kept(tiny, monkeypatch, capsys, quick, repeat):
+    monkeypatch.setattr(benchmark, "QUICK_STEPS", 100)
+    output = tiny.with_name("speed.json")
+    arguments = ["--repeat", str(repeat), "--output", str(output), *(["--quick"] if quick else [])]
+    assert benchmark.main(arguments) == 0
+    shown = capsys.readouterr().out
+    kept = json.loads(output.read_text(encoding="utf-8"))
+    rows = {row["name"]: row for row in kept["rows"]}
+    assert list(rows) == [
+        "semi_implicit, none",
+        "semi_implicit, axisymmetric",
+        "semi_implicit, local",
+        "godunov, local",
+        "python -m solver, local",
+    ]
+    for name, row in rows.items():
+        assert name in shown
+        assert row["cells"] == 48
+        assert row["median_s"] > 0
+    for name in ("none", "axisymmetric", "local"):
+        row = rows[f"semi_implicit, {name}"]
+        assert (row["cores"], row["steps"], len(row["wall_s"])) == (1, 20, repeat)
+        assert row["updates_per_s"] == pytest.approx(48 * 20 / row["median_s"])
+        assert row["sweep_updates_per_s"] == pytest.approx(48 * row["sweeps"] / row["median_s"])
+    explicit = rows["godunov, local"]
+    assert (explicit["steps"], explicit["extrapolated"]) == (1000, quick)
+    assert explicit["sweep_updates_per_s"] is None
+    assert ("extrapolated" in shown) == quick
+    assert kept["machine"]["cores"] >= 1
+    assert {"created", "git_commit", "python", "versions"} <= set(kept)
+
+
+@pytest.mark.parametrize("arguments", [["--repeat", "0"], ["--output", "absent/speed.json"]])
+def test_wrong_arguments_exit_2(arguments, capsys):
+    with pytest.raises(SystemExit) as stop:
+        benchmark.main(arguments)
+    assert stop.value.code == 2
+    assert arguments[1] in capsys.readouterr().err
+
+
+def test_a_run_that_fails_is_one_line_and_writes_nothing(tiny, capsys):
+    tiny.write_text(tiny.read_text().replace("value: 8 cm/s", "value: -80 m/s"), encoding="utf-8")
+    output = tiny.with_name("speed.json")
+    assert benchmark.main(["--repeat", "1", "--output", str(output)]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert not output.exists()

@@ -1,0 +1,250 @@
+"""``python -m validation.benchmark``: how fast the solver is on this machine."""
+
+import argparse
+import json
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+
+from cases.case_file import CaseFile, load_case_file
+from cases.errors import CaseError
+from cases.schema import Case
+from solver.case_run import walk
+from solver.errors import SolverError
+from solver.from_case import model_of
+from solver.godunov_case import THREADS
+from validation.provenance import provenance
+from validation.thesis_tables.store import write_text
+
+ROOT = Path(__file__).parents[1]
+CASE = ROOT / "benchmarks" / "thesis.yaml"
+RESULT = ROOT / "benchmarks" / "solver_speed.json"
+QUICK_STEPS = 4000  # of the explicit scheme
+PAGE_WIDTH = 110
+VARIANTS = ("none", "axisymmetric", "local")
+EXPLICIT = "local_explicit"
+
+
+@dataclass(frozen=True)
+class Run:
+    """Time that one run took, without its start: wall and processor seconds, and what was computed."""
+
+    wall_s: float
+    cpu_s: float
+    steps: int
+    sweeps: int
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the table.
+
+    Attributes
+    ----------
+    name : str
+    cores : int
+        Threads that may compute side by side.
+    cells, steps, sweeps : int
+        Of one run; sweeps of the implicit scheme's iteration, else 0.
+    wall_s, cpu_s : list of float
+        Seconds of each repetition.
+    median_s : float
+        Median of ``wall_s``, for all steps.
+    updates_per_s, sweep_updates_per_s : float or None
+        Cells × steps, and cells × sweeps, over the median; None for a whole process, and without sweeps.
+    extrapolated : bool
+        Whether ``median_s`` was inferred from fewer steps.
+    """
+
+    name: str
+    cores: int
+    cells: int
+    steps: int
+    sweeps: int
+    wall_s: list[float]
+    cpu_s: list[float]
+    median_s: float
+    updates_per_s: float | None
+    sweep_updates_per_s: float | None
+    extrapolated: bool = False
+
+
+def timed_run(case: Case, end: float) -> Run:
+    """Run a case to ``end`` (s), saving states once a cycle; finding the start is not timed."""
+    period = case.inlet.period
+    times = np.append(np.arange(0.0, end * (1 - 1e-9), period), end)
+    stops = walk(case, model_of(case), times)
+    next(stops)
+    wall, cpu = time.perf_counter(), time.process_time()
+    stop = list(stops)[-1]
+    return Run(time.perf_counter() - wall, time.process_time() - cpu, stop.steps, stop.sweeps)
+
+
+def row_of(name: str, cores: int, case: Case, runs: Sequence[Run]) -> Row:
+    """Summarise the repetitions of one run."""
+    cells = case.solver.n_x * case.solver.n_phi
+    median = statistics.median(run.wall_s for run in runs)
+    steps, sweeps = runs[-1].steps, runs[-1].sweeps
+    return Row(
+        name,
+        cores,
+        cells,
+        steps,
+        sweeps,
+        [run.wall_s for run in runs],
+        [run.cpu_s for run in runs],
+        median,
+        cells * steps / median,
+        cells * sweeps / median if sweeps else None,
+    )
+
+
+def implicit_row(variant: str, case: Case, repeat: int) -> Row:
+    """Scheme ``semi_implicit`` on one core; one more run before the measured ones warms the caches."""
+    end = case.inlet.period * case.solver.cycles
+    threads = numba.get_num_threads()
+    numba.set_num_threads(1)
+    try:
+        timed_run(case, case.inlet.period / 10)
+        runs = [timed_run(case, end) for _ in range(repeat)]
+    finally:
+        numba.set_num_threads(threads)
+    return row_of(f"semi_implicit, {variant}", 1, case, runs)
+
+
+def explicit_row(case: Case, quick: bool) -> Row:
+    """Scheme ``godunov`` on two cores, once; ``quick`` takes fewer steps and extrapolates to all."""
+    end, dt = case.inlet.period * case.solver.cycles, case.solver.time_step
+    timed_run(case, 10 * dt)
+    if not quick or end <= QUICK_STEPS * dt:
+        return row_of("godunov, local", THREADS, case, [timed_run(case, end)])
+    row = row_of("godunov, local", THREADS, case, [timed_run(case, QUICK_STEPS * dt)])
+    steps = round(end / dt)
+    return replace(row, steps=steps, median_s=row.median_s * steps / row.steps, extrapolated=True)
+
+
+def process_row(path: Path, case: Case, repeat: int) -> Row:
+    """Time ``python -m solver`` as a whole process, with its kernels compiled and cached before."""
+    seconds = []
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) / "run.nc"
+        command = [sys.executable, "-m", "solver", str(path), "--variant", "local", "--output", str(output)]
+        for _ in range(repeat + 1):
+            begin = time.perf_counter()
+            done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)  # noqa: S603
+            seconds.append(time.perf_counter() - begin)
+            if done.returncode:
+                raise SolverError(done.stderr.strip())
+    cells, warm = case.solver.n_x * case.solver.n_phi, seconds[1:]
+    return Row("python -m solver, local", 1, cells, 0, 0, warm, [], statistics.median(warm), None, None)
+
+
+def measure(path: Path, repeat: int, quick: bool, shown: Callable[[str], None]) -> list[Row]:
+    """Measure all rows; ``shown`` is told what is measured next.
+
+    Raises
+    ------
+    CaseError, SolverError
+        If the case cannot be read or a run fails.
+    """
+    file: CaseFile = load_case_file(path)
+    rows = []
+    for variant in VARIANTS:
+        shown(f"semi_implicit, {variant}")
+        rows.append(implicit_row(variant, file.variants[variant], repeat))
+    shown("godunov, local")
+    rows.append(explicit_row(file.variants[EXPLICIT], quick))
+    shown("python -m solver")
+    rows.append(process_row(path, file.variants["local"], repeat))
+    return rows
+
+
+def _rate(value: float | None) -> str:
+    return "" if value is None else f"{value / 1e6:.1f}"
+
+
+def table_of(rows: Sequence[Row]) -> Table:
+    """Lay rows out for the terminal."""
+    table = Table(
+        title="Median of the repetitions; updates = cells × steps, sweeps = cells × sweeps",
+        title_justify="left",
+        box=SIMPLE_HEAD,
+    )
+    table.add_column("run", overflow="fold")
+    headings = ("cores", "cells", "steps", "s", "CPU s", "10⁶ updates/s", "10⁶ sweeps/s")
+    for heading in headings:
+        table.add_column(heading, justify="right")
+    for row in rows:
+        table.add_row(
+            row.name,
+            str(row.cores),
+            str(row.cells),
+            str(row.steps) if row.steps else "",
+            ("≈ " if row.extrapolated else "") + f"{row.median_s:.3g}",
+            f"{statistics.median(row.cpu_s):.3g}" if row.cpu_s and not row.extrapolated else "",
+            _rate(row.updates_per_s),
+            _rate(row.sweep_updates_per_s),
+        )
+    return table
+
+
+def result_of(rows: Sequence[Row], path: Path, command: list[str]) -> dict[str, Any]:
+    """Collect what is kept: the rows, and what measured them."""
+    return {**provenance(path, [], command), "rows": [asdict(row) for row in rows]}
+
+
+def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m validation.benchmark", description=__doc__)
+    parser.add_argument("--repeat", type=int, default=5, help="repetitions, default %(default)s")
+    parser.add_argument(
+        "--quick", action="store_true", help=f"{QUICK_STEPS} steps of scheme godunov, extrapolated to all"
+    )
+    parser.add_argument("--output", type=Path, default=RESULT, help="JSON file, default %(default)s")
+    chosen = parser.parse_args(arguments)
+    if chosen.repeat < 1:
+        parser.error(f"--repeat {chosen.repeat}; allowed: 1 or more")
+    if not chosen.output.absolute().parent.is_dir():
+        parser.error(f"{chosen.output}: its folder does not exist")
+    return chosen
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; returns its exit status."""
+    chosen = _arguments(arguments)
+    told = Console(stderr=True)
+    command = ["python", "-m", "validation.benchmark", *(sys.argv[1:] if arguments is None else arguments)]
+    try:
+        with told.status("") as status:
+            rows = measure(CASE, chosen.repeat, chosen.quick, status.update)
+        write_text(chosen.output, json.dumps(result_of(rows, CASE, command), indent=1) + "\n")
+    except (CaseError, SolverError) as error:
+        print(error, file=sys.stderr)  # noqa: T201
+        return 2
+    except OSError as error:
+        print(f"{chosen.output}: cannot be written: {error.strerror or error}", file=sys.stderr)  # noqa: T201
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted; nothing was written", file=sys.stderr)  # noqa: T201
+        return 130
+    console = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
+    console.print(table_of(rows))
+    for row in rows:
+        if row.extrapolated:
+            console.print(f"≈ {row.name}: extrapolated from {row.wall_s[0]:.3g} s to all {row.steps} steps")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
