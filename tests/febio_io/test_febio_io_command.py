@@ -9,7 +9,7 @@ from log_samples import sample_log
 from xplt_samples import MESH, sample_file
 from xplt_writer import Writer
 
-from febio_io.__main__ import main
+from febio_io.command import main
 
 LOG = sample_log().encode()
 RECORD = b"*Step  = 0\n*Time  = 0\n*Data  = x;J\n1 0 1\n*Step  = 1\n*Time  = 0.5\n*Data  = x;J\n1 2 1.5\n"
