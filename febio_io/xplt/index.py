@@ -1,7 +1,7 @@
 """The top level of a plot file: where each mesh and state lies, raw or compressed."""
 
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
@@ -9,9 +9,10 @@ import numpy as np
 
 from febio_io.xplt.compression import ZLIB_FIRST, Inflater, WrongSizeError, inflate_exactly, is_zlib_start
 from febio_io.xplt.container import HEADER_SIZE, PAIR, Chunk, Source, children
-from febio_io.xplt.section_starts import section_starts
+from febio_io.xplt.section_starts import start_finder
 from febio_io.xplt.tags import Tag
 
+StartFinder = Callable[[int], int | None]
 LARGEST_STATE_HEADER = 4096  # its few numbers take some 40 bytes
 
 
@@ -97,10 +98,10 @@ def read_index(source: Source, start: int, keep: int = 0) -> Index:
     skipped: set[int] = set()
     inflated: dict[int, bytes] = {}
     position, end = start, len(source.data)
-    starts = section_starts(source, start)
+    start_after = start_finder(source)
     while position < end:
         try:
-            section, content = _read_section(source, position, keep, starts)
+            section, content = _read_section(source, position, keep, start_after)
         except _CutOffError:
             return Index(tuple(sections), position, tuple(sorted(skipped)), inflated)
         if section.tag in (Tag.MESH, Tag.STATE):
@@ -151,14 +152,16 @@ def _inflate(source: Source, section: Section) -> bytes:
         raise source.error(f"damaged compressed data: {error}", section.offset, section.tag) from error
 
 
-def _read_section(source: Source, position: int, keep: int, starts: Iterator[int]) -> tuple[Section, bytes]:
+def _read_section(
+    source: Source, position: int, keep: int, start_after: StartFinder
+) -> tuple[Section, bytes]:
     left = len(source.data) - position
     if left < HEADER_SIZE:
         raise _CutOffError
     tag, size = PAIR[source.order].unpack_from(source.data, position)
     if tag not in (Tag.MESH, Tag.STATE):
         if is_zlib_start(source.data[position], source.data[position + 1]):
-            return _read_compressed(source, position, keep, starts)
+            return _read_compressed(source, position, keep, start_after)
         if tag == 0 and not np.frombuffer(source.data, np.uint8, offset=position).any():
             # A file system may have reserved room that the interrupted program never wrote to.
             raise _CutOffError
@@ -181,17 +184,17 @@ def _state_head(source: Source, state: Chunk) -> bytes:
 
 
 def _read_compressed(
-    source: Source, position: int, keep: int, starts: Iterator[int]
+    source: Source, position: int, keep: int, start_after: StartFinder
 ) -> tuple[Section, bytes]:
     inflater = Inflater(source.data, position)
     try:
-        return _read_stream(replace(source, stream_offset=position), inflater, position, keep, starts)
+        return _read_stream(replace(source, stream_offset=position), inflater, position, keep, start_after)
     except zlib.error as error:
         raise source.error(f"damaged compressed data: {error}", position) from error
 
 
 def _read_stream(
-    source: Source, inflater: Inflater, position: int, keep: int, starts: Iterator[int]
+    source: Source, inflater: Inflater, position: int, keep: int, start_after: StartFinder
 ) -> tuple[Section, bytes]:
     start = _read_exactly(source, inflater, HEADER_SIZE)
     tag, size = PAIR[source.order].unpack(start)
@@ -202,7 +205,7 @@ def _read_stream(
     elif tag == Tag.STATE:
         head = _stream_head(source, inflater, total)
     if not content and tag in (Tag.MESH, Tag.STATE):
-        following = next((start for start in starts if start > position), None)
+        following = start_after(position)
         # Bytes that begin a raw section may lie within a stream that stores some of its content as it is.
         if following is not None and source.data[following] == ZLIB_FIRST:
             return Section(tag, position, following - position, size, compressed=True, head=head), b""
