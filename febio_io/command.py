@@ -11,6 +11,7 @@ from typing import Any, Literal
 from febio_io.data_records import looks_like_record, read_data_record
 from febio_io.errors import FebioError, FebioFileError
 from febio_io.export import Advance, export_log, export_plot, export_record
+from febio_io.files import open_file
 from febio_io.log import LOOKED_AT, looks_like_log, read_log
 from febio_io.selection import parse_states
 from febio_io.text_summary import log_lines, record_lines, summarize_log, summarize_record
@@ -60,10 +61,10 @@ def kind_of(path: Path) -> Literal["plot", "log", "record"]:
         If it cannot be opened, or is none of FEBio's result files.
     """
     try:
-        with path.open("rb") as file:
+        with open_file(path) as file:
             start = file.read(LOOKED_AT)
     except OSError as error:
-        raise FebioFileError(f"{path}: cannot be opened: {error.strerror}") from error
+        raise FebioFileError(f"{path}: cannot be read: {error.strerror}") from error
     text = start.decode("utf-8", errors="replace")
     if start.startswith(MAGICS):
         return "plot"
