@@ -5,6 +5,7 @@ import struct
 import sys
 import zlib
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,8 +16,9 @@ from xplt_samples import ITEMS, MESH, rich_file, sample_file, sample_sections, s
 from xplt_writer import Writer
 
 from febio_io.data_records import read_data_record
+from febio_io.errors import FebioError
 from febio_io.log import read_log
-from febio_io.xplt import open_plot
+from febio_io.xplt import Plot, open_plot
 from febio_io.xplt.summary import summarize, summary_lines
 from febio_io.xplt.tags import Tag
 
@@ -36,15 +38,22 @@ class Kind(NamedTuple):
 
 
 def read_plot(path: Path) -> None:
+    """Read all there is; first as a file that is too large to keep inflated."""
+    with suppress(FebioError), open_plot(path, keep_inflated=0) as plot:
+        read_values(plot)
     with open_plot(path) as plot:
         "\n".join(summary_lines(summarize(plot)))
-        for state in range(plot.n_states):
-            plot.active_elements(state)
-            plot.objects(state)
-            for variable in plot.variables:
-                for region in plot.regions(variable, state):
-                    plot.field(variable, state, region)
+        read_values(plot)
         plot.to_xarray()
+
+
+def read_values(plot: Plot) -> None:
+    for state in range(plot.n_states):
+        plot.active_elements(state)
+        plot.objects(state)
+        for variable in plot.variables:
+            for region in plot.regions(variable, state):
+                plot.field(variable, state, region)
 
 
 def read_text_log(path: Path) -> None:
@@ -74,7 +83,7 @@ def kinds() -> list[Kind]:
     """List the kinds of input."""
     raw, packed = sample_file(states=2), sample_file(zlib=True, states=2)
     remeshed = WRITER.file(*sample_sections(states=1), WRITER.mesh(MESH), WRITER.state(1, state_values(1)))
-    plots = [raw, packed, sample_file(order=">", states=1), remeshed, rich_file()]
+    plots = [raw, packed, packed, sample_file(order=">", states=1), remeshed, rich_file()]
     blocks = [b"*Step  = %d\n*Time  = %g\n*Data  = x;y\n1 2 3\n4,5,nan\n" % (k, k / 8) for k in range(4)]
     return [
         Kind("plot file", read_plot, unchanged, plots, 5),

@@ -82,6 +82,9 @@ FIELDS = _table(
     Field(
         "phase_lag", "Δt", "lag of the reduced model's outlet flow behind the reference's", "s", "ms", 1e3, ()
     ),
+    Field("wall_time", "t_wall", "wall time of the simulation", "s", "s", 1.0, ()),
+    Field("time_steps", "n_t", "time steps of the simulation", "1", "1", 1.0, ()),
+    Field("iterations", "n_it", "equilibrium iterations of the simulation", "1", "1", 1.0, ()),
     Field("mass_defect", "δ_m", "inflow − outflow − dV/dt, over the inflow", "1", "%", 1e2, ("time",)),
     Field("courant_number", "Co", "largest wave speed × Δt/Δx", "1", "1", 1.0, ("time",)),
     Field("advective_courant_number", "Co_u", "largest mean velocity × Δt/Δx", "1", "1", 1.0, ("time",)),

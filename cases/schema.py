@@ -16,7 +16,7 @@ from cases.calcification import (
 from cases.comparison import Band, Cells, Compare
 from cases.inlet import FlowInlet, Inlet, PressureInlet, VelocityInlet
 from cases.outlet import NonReflectingOutlet, Outlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
-from cases.reference import FebioReference
+from cases.reference import FebioReference, RecordFile
 from cases.section import Section, told_apart_by
 from cases.solver_settings import (
     FEWEST_ROWS,
@@ -57,6 +57,7 @@ __all__ = [
     "PatchTransition",
     "PressureInlet",
     "PressureOutlet",
+    "RecordFile",
     "ResistanceOutlet",
     "SemiImplicitSolver",
     "Solver",
@@ -201,7 +202,7 @@ class Case(Section):
         """Absolute paths of the files that the case was read from, besides the case file itself."""
         outlet = self.outlet
         paths = (
-            None if self.reference is None else self.reference.plot_file,
+            *(() if self.reference is None else self.reference.input_files),
             self.wall.table.path if isinstance(self.wall, TableWall) else None,
             None if self.inlet.waveform is None else self.inlet.waveform.path,
             outlet.waveform.path if isinstance(outlet, PressureOutlet) and outlet.waveform else None,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from febio_io.errors import FebioFileError, FebioFormatError
+from febio_io.files import read_text
 from febio_io.record_blocks import Block, numbered_lines, read_blocks
 from febio_io.record_units import unit_of
 
@@ -165,10 +166,7 @@ def read_data_record(
         If a line is neither a header nor an item with its values.
     """
     path = Path(path)
-    try:
-        text = path.read_bytes().decode("utf-8", errors="replace")
-    except OSError as error:
-        raise FebioFileError(f"{path}: cannot be opened: {error.strerror}") from error
+    text = read_text(path)
     whole, _, cut = text.rpartition("\n")
     if not looks_like_record(text[:4096]):
         raise FebioFileError(f"{path}: not an FEBio data record: it starts with {text[:20]!r}")

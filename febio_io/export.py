@@ -8,6 +8,7 @@ import numpy as np
 from febio_io.data_records import DataRecord
 from febio_io.errors import FebioKeyError, nearest_first
 from febio_io.file_names import safe_name
+from febio_io.interrupts import interrupts_deferred
 from febio_io.log import Log
 from febio_io.staging import staged
 from febio_io.xplt import Plot
@@ -61,8 +62,8 @@ def export_plot(
     chosen = pick_variables(plot, variables)
     numbers = pick_states(plot, states)
     if file_format in ("vtu", "vtkhdf"):
-        from febio_io.export_vtk import write_vtkhdf, write_vtu
-
+        with interrupts_deferred():
+            from febio_io.export_vtk import write_vtkhdf, write_vtu
         write = write_vtu if file_format == "vtu" else write_vtkhdf
     else:
         from febio_io.export_tables import write_plot_csv, write_plot_nc

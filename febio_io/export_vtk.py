@@ -1,12 +1,8 @@
 """Writes plot files for ParaView: a .vtu file for each state and a .pvd file, or one VTKHDF file."""
 
-import signal
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from types import FrameType
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
@@ -20,6 +16,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 from febio_io.errors import FebioFileError, FebioKeyError
 from febio_io.file_names import safe_name
 from febio_io.grids import to_pyvista
+from febio_io.interrupts import interrupts_told_to
 from febio_io.xplt import Plot, Variable
 from febio_io.xplt.dictionary import SectionName
 from febio_io.xplt.whole import quantities, regions_in, values_in
@@ -78,7 +75,7 @@ def write_vtkhdf(
         writer.SetInputConnection(source.GetOutputPort())
         writer.SetFileName(str(path))
         writer.SetWriteAllTimeSteps(True)
-        with _interrupts_kept(source):
+        with interrupts_told_to(source.interrupt):  # VTK would swallow one where it calls back
             done = writer.Write()
         if source.failure is not None:
             raise source.failure
@@ -123,6 +120,10 @@ class _StateSource(VTKPythonAlgorithmBase):
         self._made = part.grid(part.states[0])  # VTK's writer needs a mesh, whatever fails later
         self.failure: BaseException | None = None
 
+    def interrupt(self) -> None:
+        """Make no more meshes: a Ctrl-C is kept like any failure."""
+        self.failure = KeyboardInterrupt()
+
     def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:
         """Tell the times."""
         times = list(self._states)
@@ -146,23 +147,6 @@ class _StateSource(VTKPythonAlgorithmBase):
         output.ShallowCopy(self._made)
         output.GetInformation().Set(output.DATA_TIME_STEP(), time)
         return 1
-
-
-@contextmanager
-def _interrupts_kept(source: _StateSource) -> Iterator[None]:
-    """Keep a Ctrl-C like any failure: VTK would swallow it where it calls back."""
-    if threading.current_thread() is not threading.main_thread():
-        yield  # interrupts go to the main thread only
-        return
-
-    def keep(_number: int, _frame: FrameType | None) -> None:
-        source.failure = KeyboardInterrupt()
-
-    before = signal.signal(signal.SIGINT, keep)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _parts(plot: Plot, variables: tuple[Variable, ...], states: list[int]) -> list[_Part]:

@@ -4,6 +4,7 @@ from os import PathLike
 from pathlib import Path
 
 from febio_io.errors import FebioFileError
+from febio_io.files import read_text
 from febio_io.log_model import Input, Iteration, Log, Message, Norm, RecordLines, TimeStep
 from febio_io.log_reader import parse_log
 
@@ -42,10 +43,7 @@ def read_log(path: str | PathLike[str]) -> Log:
         If the file cannot be opened or is no FEBio log.
     """
     path = Path(path)
-    try:
-        text = path.read_bytes().decode("utf-8", errors="replace")
-    except OSError as error:
-        raise FebioFileError(f"{path}: cannot be opened: {error.strerror}") from error
+    text = read_text(path)
     if not looks_like_log(text[:LOOKED_AT]):
         raise FebioFileError(f"{path}: not an FEBio log: it starts with {text[:20]!r}")
     return parse_log(path, text)

@@ -14,10 +14,10 @@ RULE = re.compile(r"={70,}")
 SEPARATOR = re.compile(r"-{70,}")
 BOX_RULE = re.compile(r" ?\*{60,}")
 VERSION = re.compile(r"\s*version\s+(\d+\.\d+\.\d+)")
-SPACED_VERSION = re.compile(r"\s*-*\s*v e r s i o n[\s-]*((?:\d[\d .]*)+)")
-KEY_VALUE = re.compile(r"(\s*)(\S.*?)\s*\.{2,}\s*:\s*(.*)")
+SPACED_VERSION = re.compile(r"[\s-]*v e r s i o n[\s-]*(\d[\d .]*)")
+LEADERS = re.compile(r"\.\.\s*:")  # the end of the dots between a name and its value
 FILE_LINE = re.compile(r"\t(\w+ file)\s*:\s*(.*)")
-TIMING = re.compile(rf"\s*(\S.*?)\s*\.{{3,}}\s*:\s*\d+:\d\d:\d\d\s*\({NUMBER} sec\)")
+DURATION = re.compile(rf"\d+:\d\d:\d\d\s*\({NUMBER} sec\)")
 MEMORY = re.compile(rf"\s*Peak memory\s*:\s*{NUMBER} MB")
 RECORD = re.compile(rf"Data Record #{COUNT}")
 RECORD_HEADER = re.compile(r"(Step|Time|Data|File) = ?(.*)")
@@ -31,7 +31,7 @@ COUNTS = {
     "step from line search": "line_search_step",
 }
 COUNT_LINE = re.compile(rf"\t({'|'.join(COUNTS)})\s*= {NUMBER}")
-NORM = re.compile(rf"\t\s+(\S.*?)\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}\s*")
+ONE_NUMBER = re.compile(NUMBER)
 SUMMARY = re.compile(rf"\s*number of (iterations|reformations)\s*: {COUNT}")
 CONVERGED = re.compile(r"-+ converged at time :")
 FAILED = re.compile(r"-+ failed to converge at time :")
@@ -180,10 +180,18 @@ def _read_iteration(state: State, line: str) -> bool:
         state.pending["time"] = float(match[1])
     elif match := COUNT_LINE.match(line):
         state.pending[COUNTS[match[1]]] = float(match[2])
-    elif match := NORM.fullmatch(line):
-        state.norms[match[1]] = Norm(float(match[2]), float(match[3]), float(match[4]))
     else:
+        return _read_norm(state, line)
+    return True
+
+
+def _read_norm(state: State, line: str) -> bool:
+    """Take in a norm: its name and three numbers, indented by a tab and blanks."""
+    words = line.split()
+    indented = line.startswith(("\t ", "\t\t"))
+    if not indented or len(words) < 4 or not all(ONE_NUMBER.fullmatch(word) for word in words[-3:]):
         return False
+    state.norms[" ".join(words[:-3])] = Norm(*map(float, words[-3:]))
     return True
 
 
@@ -196,8 +204,8 @@ def _read_end(state: State, _number: int, line: str) -> bool:
         state.totals.append({})
     elif letters in TERMINATIONS:
         state.termination = TERMINATIONS[letters]
-    elif match := TIMING.fullmatch(line.rstrip()):
-        state.timings[match[1]] = float(match[2])
+    elif (pair := _named_value(line)) and (match := DURATION.fullmatch(pair[1])):
+        state.timings[pair[0]] = float(match[1])
     elif match := MEMORY.match(line):
         state.peak_memory = float(match[1])
     else:
@@ -219,14 +227,21 @@ def _read_plain(state: State, number: int, line: str) -> None:
         state.version = match[1].replace(" ", "").rstrip(".")
     elif match := FILE_LINE.fullmatch(line):
         state.files.setdefault(match[1], match[2].strip())
-    elif match := KEY_VALUE.fullmatch(line):
-        _read_value(state, number, match)
+    elif pair := _named_value(line):
+        _read_value(state, number, line, *pair)
     elif line.strip() and not state.attempts:
         _read_item(state, line)
 
 
-def _read_value(state: State, number: int, match: re.Match[str]) -> None:
-    indent, name, value = len(match[1].expandtabs(4)), match[2], match[3].strip()
+def _named_value(line: str) -> tuple[str, str] | None:
+    """Split "name ..... : value", piece by piece: one pattern for all would take quadratic time."""
+    match = LEADERS.search(line)
+    name = line[: match.start()].rstrip(".").strip() if match else ""
+    return (name, line[match.end() :].strip()) if match and name else None
+
+
+def _read_value(state: State, number: int, line: str, name: str, value: str) -> None:
+    indent = len(line.expandtabs(4)) - len(line.expandtabs(4).lstrip())
     if name in MATRIX and re.fullmatch(COUNT, value):
         state.matrix[MATRIX[name]] = int(value)
     elif state.step_ended:

@@ -4,6 +4,7 @@ import json
 from collections.abc import Mapping
 
 from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, Table
+from reports.cost import cost_table, records_table
 from reports.load import Comparison
 from reports.numbers import ABSENT, counted
 
@@ -98,6 +99,7 @@ def section(comparison: Comparison) -> Section:
         _models(comparison, "rom", "2D model: grid, time step and settings."),
         _models(comparison, "reference", "3D reference: files, mesh and states."),
     ]
+    blocks += [table for table in (records_table(comparison), cost_table(comparison)) if table]
     if p.wall_times_s:
         blocks.append(
             _pairs("wall-times", "Wall-clock times of this run.", ("step", "seconds"), p.wall_times_s)

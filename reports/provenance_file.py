@@ -54,6 +54,34 @@ class ReducedModelSettings(_Settings):
     cycle_change: Annotated[float, Field(ge=0)] | None = None
 
 
+Count = Annotated[int, Field(ge=0)]
+Amount = Annotated[float, Field(ge=0)]
+
+
+class SimulationCost(_Record):
+    """What the 3D simulation took, as its log tells; None where it does not."""
+
+    log: str
+    febio_version: str | None
+    ended: str
+    wall_time_s: Amount | None
+    simulated_s: Amount | None
+    time_steps: Count
+    retries: Count
+    iterations: Count
+    equations: Count | None
+
+
+class RecordCheck(_Record):
+    """Values that FEBio wrote as text beside the plot file's: largest difference over largest value."""
+
+    file: str
+    columns: tuple[str, ...]
+    instants: Count
+    values: Count
+    largest_difference: Amount | None
+
+
 class ReferenceSettings(_Settings):
     """What the 3D reference is.
 
@@ -61,9 +89,19 @@ class ReferenceSettings(_Settings):
     ----------
     coverage : float, optional
         Share of the cycle that its states cover, 0 … 1.
+    cost : SimulationCost, optional
+        What it took.
+    data_records : tuple of RecordCheck
+        What was compared with the plot file.
     """
 
     coverage: Share | None = None
+    cost: SimulationCost | None = None
+    data_records: tuple[RecordCheck, ...] = ()
+
+    def facts(self) -> dict[str, JsonValue]:
+        """All facts but those that have tables of their own."""
+        return {k: v for k, v in super().facts().items() if k not in ("cost", "data_records")}
 
 
 class VariantRecord(_Record):

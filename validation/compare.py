@@ -45,6 +45,7 @@ def variant_rows(comparison: xr.Dataset, name: str, run: VariantRun) -> list[Row
         *metrics.dominance_rows(models, cells),
         *metrics.plane_rows(models, run.reference.checks),
         *metrics.inflow_rows(models, run.reference.checks, prescribed_inflow(run)),
+        *metrics.cost_rows(models, run.rom.description, run.reference.description),
     ]
 
 

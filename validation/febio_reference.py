@@ -1,5 +1,6 @@
 """``reference.kind: febio``: a FEBio plot file on the cells of the reduced model."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ from solver.from_case import inlet_signal
 from validation.alignment import Alignment, align
 from validation.derived import derived_fields
 from validation.errors import UnusableReferenceError
+from validation.febio_log import account_of_log
+from validation.febio_records import account_of_record
 from validation.frame import Frame, frame
 from validation.mapping import MappedState, Mapper
 from validation.mesh import LumenMesh, lumen_mesh
@@ -48,9 +51,10 @@ def read_febio(case: Case, rays: Rays, progress: Progress | None = None) -> Refe
     Raises
     ------
     FebioError
-        If the plot file cannot be read.
+        If the plot file, the log or a data record cannot be read.
     UnusableReferenceError
-        If it lacks what the mapping needs, or does not fit the case.
+        If it lacks what the mapping needs, or does not fit the case; if the log or a data record is that of
+        another run.
     """
     stated = case.reference
     if not isinstance(stated, FebioReference):
@@ -72,6 +76,7 @@ def _read(plot: Plot, stated: FebioReference, case: Case, rays: Rays, progress: 
     mesh = lumen_mesh(coordinates, blocks(plot, domains.lumen), blocks(plot, domains.wall))
     _check_length(plot, mesh, case)
     _check_radius(plot, mesh, case)
+    run = _beside(plot, stated)
     alignment = align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
     pressure = pressure_reader(plot, domains.lumen, mesh.lumen, coordinates)
     mapper, mapped = Mapper(mesh, rays), []
@@ -96,8 +101,35 @@ def _read(plot: Plot, stated: FebioReference, case: Case, rays: Rays, progress: 
         fields=derived_fields(mapped, rays, alignment.cycle_times),
         checks=_checks(plot, place, mesh, mapped, alignment, case, rays),
         alignment=alignment,
-        description=_description(plot, alignment),
-        notes=(*plot.warnings, *domains.notes),
+        description=_description(plot, alignment) | run.facts,
+        notes=(*plot.warnings, *domains.notes, *run.notes),
+        warnings=run.warnings,
+    )
+
+
+@dataclass(frozen=True)
+class _Beside:
+    """What the files beside the plot file tell of its run."""
+
+    facts: dict[str, Any]
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def _beside(plot: Plot, stated: FebioReference) -> _Beside:
+    """Read the log and the data records, as far as the case states them."""
+    log = None if stated.log is None else account_of_log(stated.log, plot)
+    records = [account_of_record(record, plot) for record in stated.data_records]
+    facts: dict[str, Any] = {} if log is None else {"cost": log.cost}
+    if records:
+        facts["data_records"] = [record.facts for record in records]
+    return _Beside(
+        facts,
+        notes=tuple(note for record in records for note in record.notes),
+        warnings=(
+            *(() if log is None else log.warnings),
+            *(warning for record in records for warning in record.warnings),
+        ),
     )
 
 

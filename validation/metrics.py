@@ -215,6 +215,22 @@ def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -
         )
 
 
+def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) -> Iterator[Row]:
+    """Tell what a simulation took, where its log does; the reduced model's wall times differ from run to run.
+
+    Parameters
+    ----------
+    rom, reference : dict
+        Descriptions of both models.
+    """
+    cost = reference.get("cost")
+    if cost is None:
+        return
+    yield models.row("wall_time", "cost", reference=cost["wall_time_s"])
+    yield models.row("time_steps", "cost", rom=float(rom["steps"]), reference=float(cost["time_steps"]))
+    yield models.row("iterations", "cost", reference=float(cost["iterations"]))
+
+
 def change_rows(rows: list[Row], baseline: str) -> Iterator[Row]:
     """Values and cycle quantities minus, and over, the baseline's: what calcification changes."""
     kept = [row for row in rows if row.statistic in ("value", "cycle") and row.rom is not None]

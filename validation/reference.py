@@ -37,6 +37,8 @@ class Reference:
         For provenance: file, software, mesh, states.
     notes : tuple of str
         What a reader must know.
+    warnings : tuple of str
+        What casts doubt on the reference.
     """
 
     fields: xr.Dataset
@@ -44,6 +46,7 @@ class Reference:
     alignment: Alignment
     description: dict[str, Any]
     notes: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
 
 
 ReferenceReader = Callable[[Case, Rays, Progress | None], Reference]

@@ -8,9 +8,44 @@ FEED_SIZE = 1 << 18
 BLOCK_SIZE = 1 << 18
 
 
+# The two bytes of a zlib stream's header (RFC 1950, section 2.2).
+ZLIB_FIRST = 0x78
+ZLIB_SECOND = tuple(second for second in range(256) if (ZLIB_FIRST << 8 | second) % 31 == 0)
+
+
 def is_zlib_start(first: int, second: int) -> bool:
-    """Whether two bytes can begin a zlib stream (RFC 1950, section 2.2)."""
-    return first == 0x78 and ((first << 8) | second) % 31 == 0
+    """Whether two bytes can begin a zlib stream."""
+    return first == ZLIB_FIRST and second in ZLIB_SECOND
+
+
+class WrongSizeError(Exception):
+    """A zlib stream is not of the size it should be; the message says how."""
+
+
+def inflate_exactly(packed: bytes, size: int) -> bytes:
+    """Inflate a stream that must end with the bytes, and give so many.
+
+    Raises
+    ------
+    zlib.error
+        If the bytes are no zlib stream.
+    WrongSizeError
+        If the stream goes on, ends before the bytes do, or gives another number of bytes.
+    """
+    stream = zlib.decompressobj()
+    content = stream.decompress(packed, size + 1)
+    if len(content) != size:
+        found = "more" if len(content) > size else str(len(content))
+        raise WrongSizeError(f"{size} bytes expected, but {found} are there")
+    if not stream.eof:
+        stream.decompress(stream.unconsumed_tail, 1)  # takes in the checksum at the stream's end
+    if not stream.eof:
+        raise WrongSizeError("the compressed data is cut off where the next section begins")
+    if stream.unused_data:
+        raise WrongSizeError(
+            f"{len(stream.unused_data)} bytes after the compressed data belong to no section"
+        )
+    return content
 
 
 class Inflater:

@@ -1,16 +1,18 @@
 """The top level of a plot file: where each mesh and state lies, raw or compressed."""
 
 import zlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
 
-from febio_io.xplt.compression import Inflater, is_zlib_start
+from febio_io.xplt.compression import ZLIB_FIRST, Inflater, WrongSizeError, inflate_exactly, is_zlib_start
 from febio_io.xplt.container import HEADER_SIZE, PAIR, Chunk, Source, children
+from febio_io.xplt.section_starts import start_finder
 from febio_io.xplt.tags import Tag
 
+StartFinder = Callable[[int], int | None]
 LARGEST_STATE_HEADER = 4096  # its few numbers take some 40 bytes
 
 
@@ -69,8 +71,9 @@ class _CutOffError(Exception):
 def read_index(source: Source, start: int, keep: int = 0) -> Index:
     """Find every mesh and state.
 
-    Raw sections are hopped over; compressed ones are inflated once, because no length of theirs is stored.
-    The first of them are kept; once no more may be, they are inflated block by block and forgotten.
+    Raw sections are hopped over. No length is stored of compressed ones: the first of them are inflated and
+    kept; once no more may be, the next section is searched for, so that none need be inflated twice. The last
+    one is inflated block by block to see whether it is whole.
 
     Parameters
     ----------
@@ -95,9 +98,10 @@ def read_index(source: Source, start: int, keep: int = 0) -> Index:
     skipped: set[int] = set()
     inflated: dict[int, bytes] = {}
     position, end = start, len(source.data)
+    start_after = start_finder(source)
     while position < end:
         try:
-            section, content = _read_section(source, position, keep)
+            section, content = _read_section(source, position, keep, start_after)
         except _CutOffError:
             return Index(tuple(sections), position, tuple(sorted(skipped)), inflated)
         if section.tag in (Tag.MESH, Tag.STATE):
@@ -143,20 +147,21 @@ def open_section(
 def _inflate(source: Source, section: Section) -> bytes:
     stream = source.data[section.offset : section.offset + section.length]
     try:
-        # The index has seen that the stream gives just this many bytes.
-        return zlib.decompress(stream, bufsize=HEADER_SIZE + section.size)
-    except zlib.error as error:
-        raise source.error(f"damaged compressed data: {error}", section.offset) from error
+        return inflate_exactly(stream, HEADER_SIZE + section.size)
+    except (zlib.error, WrongSizeError) as error:
+        raise source.error(f"damaged compressed data: {error}", section.offset, section.tag) from error
 
 
-def _read_section(source: Source, position: int, keep: int) -> tuple[Section, bytes]:
+def _read_section(
+    source: Source, position: int, keep: int, start_after: StartFinder
+) -> tuple[Section, bytes]:
     left = len(source.data) - position
     if left < HEADER_SIZE:
         raise _CutOffError
     tag, size = PAIR[source.order].unpack_from(source.data, position)
     if tag not in (Tag.MESH, Tag.STATE):
         if is_zlib_start(source.data[position], source.data[position + 1]):
-            return _read_compressed(source, position, keep)
+            return _read_compressed(source, position, keep, start_after)
         if tag == 0 and not np.frombuffer(source.data, np.uint8, offset=position).any():
             # A file system may have reserved room that the interrupted program never wrote to.
             raise _CutOffError
@@ -178,15 +183,19 @@ def _state_head(source: Source, state: Chunk) -> bytes:
     raise source.error("a state without a header", state.start, state.tag)
 
 
-def _read_compressed(source: Source, position: int, keep: int) -> tuple[Section, bytes]:
+def _read_compressed(
+    source: Source, position: int, keep: int, start_after: StartFinder
+) -> tuple[Section, bytes]:
     inflater = Inflater(source.data, position)
     try:
-        return _read_stream(replace(source, stream_offset=position), inflater, position, keep)
+        return _read_stream(replace(source, stream_offset=position), inflater, position, keep, start_after)
     except zlib.error as error:
         raise source.error(f"damaged compressed data: {error}", position) from error
 
 
-def _read_stream(source: Source, inflater: Inflater, position: int, keep: int) -> tuple[Section, bytes]:
+def _read_stream(
+    source: Source, inflater: Inflater, position: int, keep: int, start_after: StartFinder
+) -> tuple[Section, bytes]:
     start = _read_exactly(source, inflater, HEADER_SIZE)
     tag, size = PAIR[source.order].unpack(start)
     total = HEADER_SIZE + size
@@ -195,6 +204,11 @@ def _read_stream(source: Source, inflater: Inflater, position: int, keep: int) -
         content = b"".join((start, *inflater.pieces(size)))
     elif tag == Tag.STATE:
         head = _stream_head(source, inflater, total)
+    if not content and tag in (Tag.MESH, Tag.STATE):
+        following = start_after(position)
+        # Bytes that begin a raw section may lie within a stream that stores some of its content as it is.
+        if following is not None and source.data[following] == ZLIB_FIRST:
+            return Section(tag, position, following - position, size, compressed=True, head=head), b""
     inflater.skip(total - inflater.inflated)
     surplus = inflater.read(1)  # also takes in the checksum at the stream's end
     if not inflater.ended and not surplus:

@@ -42,9 +42,11 @@ def open_plot(path: str | PathLike[str], *, keep_inflated: int = KEEP_INFLATED) 
     """Open an FEBio plot file (.xplt).
 
     Only headers are read: the file is mapped into memory, and values are read when they are asked for.
-    Compressed states must be inflated once to find where each ends; the first of them are kept in memory,
-    so that they need not be inflated again. A file that FEBio is still writing may be opened: the states
-    complete by then are used. It must not be shortened or overwritten while it is open.
+    Compressed states must be inflated to find where each ends; the first of them are kept in memory, so that
+    they need not be inflated again. Once no more may be kept, the next state is searched for by how it
+    begins; damage of such states is then found when they, or those before, are read. A file that FEBio is
+    still writing may be opened: the states complete by then are used. It must not be shortened or overwritten
+    while it is open.
 
     Parameters
     ----------

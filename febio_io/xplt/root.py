@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from febio_io.errors import FebioFileError
+from febio_io.files import open_file
 from febio_io.xplt.container import HEADER_SIZE, PAIR, Chunk, Source, children_by_tag, required
 from febio_io.xplt.dictionary import Variable, read_dictionary
 from febio_io.xplt.tags import MAGIC, Tag
@@ -47,12 +48,12 @@ def map_file(path: Path) -> Source:
         If the file cannot be opened or is no plot file.
     """
     try:
-        with path.open("rb") as file:
+        with open_file(path) as file:
             if not file.seek(0, 2):
                 raise FebioFileError(f"{path}: not an FEBio plot file: it is empty")
             data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
     except OSError as error:
-        raise FebioFileError(f"{path}: cannot be opened: {error.strerror}") from error
+        raise FebioFileError(f"{path}: cannot be read: {error.strerror}") from error
     start = data[:MAGIC_SIZE]
     if start == MAGIC.to_bytes(MAGIC_SIZE, "little"):
         return Source(path, data, "<")

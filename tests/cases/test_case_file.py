@@ -170,6 +170,18 @@ def test_a_constant_inlet_has_no_pulse_to_compare(folder, event):
     ]
 
 
+def test_a_reference_may_have_a_log_and_data_records(folder):
+    stated = (
+        "axis: z, log: data/flow.csv, data_records: [{file: data/wall.csv, items: elements, columns: [fp]}]"
+    )
+    reference = folder.load(("axis: z", stated)).variants["none"].reference
+    assert reference.log == folder.path / "data/flow.csv"
+    (record,) = reference.data_records
+    assert (record.items, record.columns) == ("elements", ("fp",))
+    assert reference.input_files == (reference.plot_file, reference.log, folder.path / "data/wall.csv")
+    assert folder.load().variants["none"].reference.input_files == (reference.plot_file,)
+
+
 @pytest.mark.parametrize("phi", ["[225 deg, 135 deg]", "[0 deg, 360 deg]", "[0 rad, 1 rad]"])
 def test_a_patch_may_cross_zero_or_go_all_round(folder, phi):
     calcification = folder.load(("[135 deg, 225 deg]", phi)).variants["local"].calcification

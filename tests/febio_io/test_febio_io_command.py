@@ -1,6 +1,7 @@
 """``python -m febio_io``."""
 
 import json
+import os
 import subprocess
 import sys
 
@@ -9,7 +10,11 @@ from log_samples import sample_log
 from xplt_samples import MESH, sample_file
 from xplt_writer import Writer
 
-from febio_io.__main__ import main
+from febio_io.command import main
+from febio_io.data_records import read_data_record
+from febio_io.errors import FebioFileError
+from febio_io.log import read_log
+from febio_io.xplt import open_plot
 
 LOG = sample_log().encode()
 RECORD = b"*Step  = 0\n*Time  = 0\n*Data  = x;J\n1 0 1\n*Step  = 1\n*Time  = 0.5\n*Data  = x;J\n1 2 1.5\n"
@@ -148,3 +153,15 @@ def test_the_module_runs_as_a_command(write):
     result = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603
     assert result.returncode == 2
     assert "not an FEBio plot file, log or data record" in result.stderr
+
+
+@pytest.mark.parametrize("read", [open_plot, read_log, read_data_record])
+def test_what_is_no_file_is_refused_unread(tmp_path, read, capsys):
+    os.mkfifo(tmp_path / "pipe")
+    for path, said in ((tmp_path / "pipe", "a device or a pipe"), (tmp_path, "Is a directory")):
+        with pytest.raises(FebioFileError, match=f"cannot be opened: .*{said}"):
+            read(path)
+        assert main([str(path)]) == 2
+        assert said in capsys.readouterr().err
+    with pytest.raises(FebioFileError, match="null"):
+        read("a\0b")

@@ -182,3 +182,13 @@ def test_shuffled_logs_raise_only_errors_of_the_family(write, pieces, cut):
             log.data_record(item.number).to_xarray()
         except FebioError as error:
             assert str(path) in str(error)  # noqa: PT017
+
+
+@pytest.mark.parametrize(
+    "line", ["." * 30_000, "x" + " " * 30_000 + "x", "\t x" + " " * 30_000 + "x", " " * 30_000]
+)
+@pytest.mark.parametrize("before", ["", "===== beginning time step 1 : 0.1 =====\n"])
+def test_long_lines_take_no_more_than_linear_time(write, before, line):
+    # Quadratic time would be minutes for these, beyond any limit on a test.
+    log = read_log(write(f" FILES USED\n{before}{(line + chr(10)) * 20}".encode(), "run.log"))
+    assert log.inputs == ()

@@ -4,6 +4,7 @@ import tomllib
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 import pyvista as pv
@@ -11,6 +12,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from xplt_samples import ITEMS, MESH, SMALL_MESH, sample_file, sample_sections, state_values
 from xplt_writer import DomainOf, FacesOf, Item, MeshOf, Writer
 
+import febio_io.meshio_format  # noqa: F401 - registers the format
 from febio_io.errors import FebioError, FebioFileError, FebioFormatError, FebioKeyError
 from febio_io.pyvista_reader import PlotReader
 from febio_io.xplt import ELEMENT_TYPES, open_plot
@@ -262,9 +264,6 @@ def test_the_entry_point_is_that_reader():
 
 
 def test_meshio_reads_plot_files(write):
-    meshio = pytest.importorskip("meshio")
-    import febio_io.meshio_format  # noqa: F401
-
     mesh = meshio.read(write(sample_file()))
     assert [block.type for block in mesh.cells] == ["hexahedron", "quad", "triangle"]
     assert_array_equal(mesh.points, MESH.coordinates)

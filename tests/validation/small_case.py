@@ -18,7 +18,11 @@ def small_case(*variants: str, n_x: int = 12, n_phi: int = 8) -> dict[str, Any]:
     case["inlet"]["waveform"] = str(ROOT / case["inlet"]["waveform"])
     case["variants"] = {name: case["variants"][name] for name in variants or ("none", "local")}
     for variant in case["variants"].values():
-        variant["reference"]["plot_file"] = str(ROOT / variant["reference"]["plot_file"])
+        reference = variant["reference"]
+        for key in ("plot_file", "log"):
+            reference[key] = str(ROOT / reference[key])
+        for record in reference["data_records"]:
+            record["file"] = str(ROOT / record["file"])
     return case
 
 

@@ -41,7 +41,7 @@ def made(tmp_path_factory):
     def case(*declared):
         content = bands(small_case("none"), *declared)
         content["reference"] |= {"lumen": ["Blood"], "wall": ["Wall"], "time_offset": "0 s"}
-        content["variants"]["none"]["reference"]["plot_file"] = str(plot)
+        content["variants"]["none"]["reference"] = {"plot_file": str(plot)}
         return content
 
     return case
@@ -167,7 +167,8 @@ class TestResult:
             "case", "inputs", "wall_times_s", "notes", "variants", "bands", "warnings",
         }  # fmt: skip
         names = {Path(item["path"]).name for item in about["inputs"]}
-        assert names == {"none.xplt", "local.xplt", "thesis_inlet.csv"}
+        runs = {f"{run}{kind}" for run in ("none", "local") for kind in RUN_FILES}
+        assert names == runs | {"thesis_inlet.csv"}
         for item in about["inputs"]:
             assert item["bytes"] == Path(item["path"]).stat().st_size
             assert item["sha256"] == output_checksum(Path(item["path"]))
@@ -176,10 +177,41 @@ class TestResult:
         assert [band["limit"] for band in about["bands"]] == [0.5, 1e-8]
         assert any("viscosity" in note for note in about["notes"])
 
+    def test_the_cost_of_the_3d_run_is_told(self, finished):
+        rows = json.loads((finished[1] / "metrics.json").read_text(encoding="utf-8"))
+        cost = {
+            (row["variant"], row["quantity"]): (row["rom"], row["reference"], row["unit"])
+            for row in rows
+            if row["statistic"] == "cost"
+        }
+        about = json.loads((finished[1] / "provenance.json").read_text(encoding="utf-8"))
+        steps = about["variants"]["local"]["rom"]["steps"]
+        assert len(cost) == 2 * 3
+        assert cost["local", "wall_time"] == (None, 881.072, "s")
+        assert cost["local", "time_steps"] == (steps, 450, "1")
+        assert cost["local", "iterations"] == (None, 2247, "1")
+        assert about["variants"]["none"]["reference"]["cost"]["ended"] == "normally"
+        report = (finished[1] / "report.html").read_text(encoding="utf-8")
+        assert "14.7\u00a0min" in report
+
+    def test_data_records_confirm_the_plot_file(self, finished):
+        about = json.loads((finished[1] / "provenance.json").read_text(encoding="utf-8"))
+        records = about["variants"]["none"]["reference"]["data_records"]
+        assert [Path(record["file"]).name for record in records] == [
+            "none_axis_nodes.txt",
+            "none_mid_elements.txt",
+        ]
+        assert max(record["largest_difference"] for record in records) < 1e-7
+        assert any("none_axis_nodes.txt: 7626 values" in note for note in about["notes"])
+        assert about["warnings"] == []
+
     def test_a_second_run_gives_the_same_figures(self, finished, tmp_path, quick):
         assert compare.main([str(finished[0]), "--output", str(tmp_path / "again")]) == 0
         again, first = ((d / "metrics.csv").read_text() for d in (tmp_path / "again", finished[1]))
         assert again == first
+
+
+RUN_FILES = (".xplt", ".log", "_axis_nodes.txt", "_mid_elements.txt")
 
 
 def output_checksum(path):
@@ -336,7 +368,7 @@ class TestWrongInput:
 
     def plot(self, path, **changes):
         case = bands(small_case("none"))
-        case["variants"]["none"]["reference"]["plot_file"] = str(path)
+        case["variants"]["none"]["reference"] = {"plot_file": str(path)}
         case["reference"] |= changes
         return case
 
@@ -434,7 +466,7 @@ class TestWrongInput:
     def test_one_broken_variant_of_two_stops_the_other(self, tmp_path, refused, monkeypatch):
         (tmp_path / "text.xplt").write_text("no plot file")
         case = small_case()
-        case["variants"]["local"]["reference"]["plot_file"] = str(tmp_path / "text.xplt")
+        case["variants"]["local"]["reference"] = {"plot_file": str(tmp_path / "text.xplt")}
         assert refused(case).startswith("text.xplt: not an FEBio plot file")
         assert threading.active_count() == 1 or not [
             thread for thread in threading.enumerate() if thread.name.startswith("ThreadPoolExecutor")

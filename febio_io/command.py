@@ -1,0 +1,165 @@
+"""The command ``python -m febio_io FILE``: what a result file holds, and export to other formats."""
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Literal
+
+from febio_io.data_records import looks_like_record, read_data_record
+from febio_io.errors import FebioError, FebioFileError
+from febio_io.export import Advance, export_log, export_plot, export_record
+from febio_io.files import open_file
+from febio_io.log import LOOKED_AT, looks_like_log, read_log
+from febio_io.selection import parse_states
+from febio_io.text_summary import log_lines, record_lines, summarize_log, summarize_record
+from febio_io.xplt import open_plot
+from febio_io.xplt.root import MAGIC_SIZE
+from febio_io.xplt.summary import summarize, summary_lines
+from febio_io.xplt.tags import MAGIC
+
+FORMATS = ("vtu", "vtkhdf", "csv", "nc")
+MAGICS = (MAGIC.to_bytes(MAGIC_SIZE, "little"), MAGIC.to_bytes(MAGIC_SIZE, "big"))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Arguments of the command line; those of the process by default.
+
+    Returns
+    -------
+    int
+        Exit status: 0, or 2 if the file cannot be read or what is asked for cannot be done.
+    """
+    options = _parser().parse_args(arguments)
+    if options.export is None and (options.format or options.variables or options.states):
+        print("febio_io: --format, --variables and --states need --export", file=sys.stderr)
+        return 2
+    try:
+        kind = kind_of(options.file)
+        run = {"plot": _run_plot, "log": _run_log, "record": _run_record}[kind]
+        lines = run(options)
+    except FebioError as error:
+        print(f"febio_io: {error}", file=sys.stderr)
+        return 2
+    print("\n".join(lines))
+    return 0
+
+
+def kind_of(path: Path) -> Literal["plot", "log", "record"]:
+    """Tell a file's kind by what is in it, whatever its name.
+
+    Raises
+    ------
+    FebioFileError
+        If it cannot be opened, or is none of FEBio's result files.
+    """
+    try:
+        with open_file(path) as file:
+            start = file.read(LOOKED_AT)
+    except OSError as error:
+        raise FebioFileError(f"{path}: cannot be read: {error.strerror}") from error
+    text = start.decode("utf-8", errors="replace")
+    if start.startswith(MAGICS):
+        return "plot"
+    if looks_like_log(text):
+        return "log"
+    if looks_like_record(text):
+        return "record"
+    what = f"it starts with {start[:8]!r}" if start else "it is empty"
+    raise FebioFileError(f"{path}: not an FEBio plot file, log or data record: {what}")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m febio_io",
+        description="Tell what an FEBio plot file (.xplt), log (.log) or data record (.txt) holds, "
+        "or write it in another format.",
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="the file; its kind is told by what is in it")
+    parser.add_argument("--json", action="store_true", help="print JSON, for programs")
+    parser.add_argument("--export", type=Path, metavar="DIR", help="write files into this folder")
+    parser.add_argument(
+        "--format",
+        choices=FORMATS,
+        help="vtu (the default for plot files) and vtkhdf: for ParaView; csv (the default for others): "
+        "tables; nc: netCDF",
+    )
+    parser.add_argument("--variables", nargs="+", metavar="NAME", help="only these variables or columns")
+    parser.add_argument(
+        "--states",
+        metavar="LIST",
+        help="only these states or blocks: numbers from 0, or from the end if negative, and ranges "
+        "FIRST:LAST[:STEP] with the last included, e.g. 0,10:20,-1 (as --states=-1 if it starts with a dash)",
+    )
+    return parser
+
+
+def _run_plot(options: argparse.Namespace) -> list[str]:
+    with open_plot(options.file) as plot:
+        if options.export is None:
+            summary = summarize(plot)
+            return _shown(summary, summary_lines(summary), options.json)
+        states = None if options.states is None else parse_states(options.states, plot.n_states)
+        with _progress() as advance:
+            written = export_plot(
+                plot,
+                options.export,
+                options.format or "vtu",
+                variables=options.variables,
+                states=states,
+                advance=advance,
+            )
+    return _written(written, options.json)
+
+
+def _run_log(options: argparse.Namespace) -> list[str]:
+    log = read_log(options.file)
+    if options.export is None:
+        summary = summarize_log(log)
+        return _shown(summary, log_lines(summary), options.json)
+    if options.variables or options.states:
+        raise FebioFileError(f"{options.file}: --variables and --states do not apply to a log")
+    return _written(export_log(log, options.export, options.format or "csv"), options.json)
+
+
+def _run_record(options: argparse.Namespace) -> list[str]:
+    record = read_data_record(options.file)
+    if options.export is None:
+        summary = summarize_record(record)
+        return _shown(summary, record_lines(summary), options.json)
+    blocks = None if options.states is None else parse_states(options.states, len(record.times))
+    written = export_record(
+        record, options.export, options.format or "csv", variables=options.variables, blocks=blocks
+    )
+    return _written(written, options.json)
+
+
+def _shown(summary: dict[str, Any], lines: Iterator[str], as_json: bool) -> list[str]:
+    return [json.dumps(summary, indent=2)] if as_json else list(lines)
+
+
+def _written(paths: list[Path], as_json: bool) -> list[str]:
+    names = [str(path) for path in paths]
+    return [json.dumps({"written": names}, indent=2)] if as_json else [f"wrote {name}" for name in names]
+
+
+@contextmanager
+def _progress() -> Iterator[Advance]:
+    """Show how many states have been written, if there is a terminal to show it on."""
+    if not sys.stderr.isatty():
+        yield lambda: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.completed} states written"))
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("", total=None)
+        yield lambda: progress.advance(task)

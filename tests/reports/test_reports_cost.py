@@ -1,0 +1,89 @@
+"""What a report tells of the cost of 3D and of FEBio's data records."""
+
+import json
+
+import pytest
+from synthetic_comparison import Setup, write
+
+from reports import cost
+from reports.errors import ReportError
+from reports.load import load
+
+COST = {
+    "log": "none.log",
+    "febio_version": "4.11.0",
+    "ended": "normally",
+    "wall_time_s": 949.057,
+    "simulated_s": 1.794,
+    "time_steps": 450,
+    "retries": 2,
+    "iterations": 2211,
+    "equations": 37572,
+}
+RECORD = {
+    "file": "axis.txt",
+    "columns": ["x", "nfvx"],
+    "instants": 41,
+    "values": 82,
+    "largest_difference": 3.7e-8,
+}
+
+
+@pytest.fixture
+def comparison(tmp_path):
+    """Write a comparison whose first variant has facts of its 3D run."""
+
+    def loaded(wall_times=None, **facts):
+        write(tmp_path, Setup())
+        path = tmp_path / "provenance.json"
+        content = json.loads(path.read_text(encoding="utf-8"))
+        content["variants"]["none"]["reference"] |= facts
+        content["wall_times_s"] = wall_times or {}
+        path.write_text(json.dumps(content), encoding="utf-8")
+        return load(tmp_path)
+
+    return loaded
+
+
+def test_without_log_and_records_there_is_nothing_to_tell(comparison):
+    plain = comparison()
+    assert (cost.cost_table(plain), cost.records_table(plain)) == (None, None)
+
+
+def test_the_cost_of_both_models(comparison):
+    table = cost.cost_table(comparison({"none: reduced model": 0.5}, cost=COST))
+    assert [tuple(text.replace("\u00a0", " ") for text in row) for row in table.rows] == [
+        (
+            "none", "15.8 min", "1.794 s", "450 (2 retried)", "2211", "37572", "normally (FEBio 4.11.0)",
+            "0.500 s", "—", "1898",
+        )
+    ]  # fmt: skip
+
+
+def test_what_the_log_does_not_tell_is_left_out(comparison):
+    unknown = dict.fromkeys(("wall_time_s", "simulated_s", "equations", "febio_version"))
+    (row,) = cost.cost_table(comparison(cost=COST | unknown)).rows
+    assert row == ("none", "—", "—", "450 (2 retried)", "2211", "—", "normally (FEBio)", "—", "—", "—")
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"), [(0.5, "0.500 s"), (119, "119 s"), (1e4, "2.78 h"), (1e6, "11.6 d")]
+)
+def test_long_times_are_in_long_units(comparison, seconds, text):
+    (row,) = cost.cost_table(comparison(cost=COST | {"wall_time_s": seconds})).rows
+    assert row[1].replace("\u00a0", " ") == text
+
+
+def test_data_records(comparison):
+    (row,) = cost.records_table(comparison(data_records=[RECORD])).rows
+    assert row == ("none", "axis.txt", "x, nfvx", "41", "82", "3.7e-08")
+
+
+def test_neither_is_listed_among_the_settings(comparison):
+    facts = comparison(cost=COST, data_records=[RECORD]).provenance.variants["none"].reference.facts()
+    assert not {"cost", "data_records"} & set(facts)
+
+
+def test_a_cost_of_another_kind_is_refused(comparison):
+    with pytest.raises(ReportError, match=r"cost, wall_time_s: .* found 'long'"):
+        comparison(cost=COST | {"wall_time_s": "long"})
