@@ -1,5 +1,6 @@
 """What a report is made of, whatever it is rendered to."""
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Literal
@@ -71,12 +72,15 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing with the words that stand for it and the numbers behind it."""
+    """A drawing with the words that stand for it and the numbers behind it.
+
+    `drawing` returns its SVG, always the same; it can be pickled, so that another process may call it.
+    """
 
     key: str
     caption: str
     alt: str
-    svg: str
+    drawing: Callable[[], str]
     csv: str
 
 
@@ -122,3 +126,11 @@ class Report:
     identity: str
     created: str
     sections: tuple[Section, ...]
+
+    def figures(self) -> Iterator[Figure]:
+        """All figures, in reading order."""
+        for section in self.sections:
+            for part in section.blocks:
+                for block in part.blocks if isinstance(part, Subsection) else (part,):
+                    if isinstance(block, Figure):
+                        yield block

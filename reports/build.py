@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 from reports.content import report
+from reports.drawn import draw, helper
 from reports.html import render_html
 from reports.load import load
 from reports.pdf import render_pdf
@@ -29,10 +30,12 @@ def write_reports(directory: Path) -> tuple[Path, Path]:
     ReportError
         If the directory is not a finished comparison.
     """
-    content = report(load(directory))
+    with helper() as second:
+        content = report(load(directory))
+        drawings = draw({figure.key: figure.drawing for figure in content.figures()}, second)
     pages = {
-        directory / "report.html": render_html(content).encode(),
-        directory / "report.pdf": render_pdf(content),
+        directory / "report.html": render_html(content, drawings).encode(),
+        directory / "report.pdf": render_pdf(content, drawings),
     }
     for path, data in pages.items():
         _write(path, data)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,7 +78,8 @@ def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Li
     figures = []
     for columns in chunks(comparison.i):
         cells = f"cells i = {listed(columns)}"
-        svg = small_multiples(
+        drawing = partial(
+            small_multiples,
             time,
             "time into the cycle (s)",
             [column_heading(comparison, i) for i in columns],
@@ -93,7 +95,7 @@ def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Li
                 "zero is a constant offset. Dotted: the named times.",
                 alt=f"Curves of {what} over time in 3D and 2D with their difference, variant {variant}, a "
                 f"column of panels for each of {cells}. Farthest apart: {farthest}.",
-                svg=svg,
+                drawing=drawing,
                 csv=_csv(comparison, lines, columns),
             )
         )

@@ -1,5 +1,7 @@
 """Section 5: the exponent of the velocity profile closest to 3D, beside that of the 2D model."""
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 
@@ -65,7 +67,8 @@ def _figure(comparison: Comparison, variant: str, key: str) -> Figure:
         f"{outlined(data)}",
         alt=f"Maps over x and φ of the exponent closest to 3D, of the 2D exponent and of the error of the "
         f"closest profile, variant {variant}, at {when}. {summary}",
-        svg=heat_maps(
+        drawing=partial(
+            heat_maps,
             *centres(data),
             ("3D: closest γ", "2D: γ", "3D: error of the closest profile"),
             [_row(state, f"t = {t:.3f} s", limits) for t, state in instants],

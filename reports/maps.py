@@ -1,5 +1,7 @@
 """Section 6: maps of the fields over the unrolled lumen, (x, φ), in both models."""
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 
@@ -64,7 +66,8 @@ def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figur
         f"in a scale centred on zero. Farthest apart: {farthest}.{outlined(data)}",
         alt=f"Maps over x and φ of {what} in 3D, in 2D and their difference, variant {variant}, {when}. "
         f"Farthest apart: {farthest}.",
-        svg=heat_maps(
+        drawing=partial(
+            heat_maps,
             *centres(data),
             ("3D", "2D", "2D − 3D"),
             [_row(data, quantity) for quantity in quantities],

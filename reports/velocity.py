@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,7 +91,8 @@ def _figures(
                 "parabola, more is flatter.",
                 alt=f"Velocity profiles of 3D and 2D, variant {variant}, {when}, a panel for each of "
                 f"{cells}; {farthest}.",
-                svg=small_multiples(
+                drawing=partial(
+                    small_multiples,
                     comparison.profiles["y"].values.astype(float),
                     "r/R (–)",
                     [column_heading(comparison, i) for i in columns],

@@ -2,6 +2,7 @@
 
 import base64
 import re
+from collections.abc import Mapping
 from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -9,9 +10,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from reports.blocks import Report
 
 
-def render_html(report: Report) -> str:
-    """Return the HTML text of `report`; texts are escaped, figures and their data embedded."""
-    return _environment().get_template("report.html").render(report=report)
+def render_html(report: Report, drawings: Mapping[str, str]) -> str:
+    """Return the HTML text of `report`; texts are escaped, figures (SVG by key) and their data embedded."""
+    return _environment().get_template("report.html").render(report=report, drawings=drawings)
 
 
 @cache
