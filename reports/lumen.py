@@ -25,8 +25,8 @@ def centres(data: xr.Dataset) -> tuple[Array, Array]:
 
 
 def outlined(data: xr.Dataset) -> str:
-    """Say what the dashed line of a map is; "" where there is none."""
-    return " Dashed: the calcified cells." if bool(data["calcified"].any()) else ""
+    """Say what the frame in a map is; "" where there is none."""
+    return " Framed: the calcified cells." if bool(data["calcified"].any()) else ""
 
 
 def cells_csv(instants: Sequence[tuple[float, xr.Dataset]], names: Sequence[str]) -> str:
