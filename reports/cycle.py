@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cases.fields import FIELDS, Field
-from reports.blocks import Block, Figure, Paragraph, Section, Subsection
+from reports.blocks import Block, Figure, Interactive, Paragraph, Section, Subsection
 from reports.cells import chunks
 from reports.figures import Curves, PanelRow, small_multiples
 from reports.load import Comparison
@@ -158,5 +158,13 @@ def section(comparison: Comparison) -> Section:
     return Section(
         "cycle",
         "Pressure, radius and flow over the cycle",
-        tuple(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+        (
+            Interactive(
+                "curves-anywhere",
+                "curves",
+                "Any cell over the cycle",
+                "Choose a variant, a quantity and a cell; point at the curves for their values.",
+            ),
+            *(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+        ),
     )

@@ -293,7 +293,8 @@ def _background(axis: Axes, layout: _Layout, column: int, panel: Curves, marks: 
     axis.add_collection(
         LineCollection(frame, colors="#000000", linewidths=0.5, transform=transform), autolim=False
     )
-    lines = [[(layout.place(column, mark), 0.0), (layout.place(column, mark), 1.0)] for mark in marks]
+    places = [float(layout.place(column, mark)) for mark in marks]
+    lines = [[(place, 0.0), (place, 1.0)] for place in places]
     axis.add_collection(
         LineCollection(lines, colors=_MARK_COLOUR, linewidths=0.6, linestyles=":", transform=transform),
         autolim=False,

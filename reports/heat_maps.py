@@ -84,7 +84,7 @@ def heat_maps(
         total = _TOP + _BOTTOM + _HEIGHT * len(rows) + _ROW_GAP * (len(rows) - 1)
         figure = Figure(figsize=(WIDTH, total))
         FigureCanvasSVG(figure)
-        edges = (_edges(x), _edges(phi))
+        edges = (edges_of(x), edges_of(phi))
         outline = cell_borders(*edges, calcified)
         for number, row in enumerate(rows):
             bottom = total - _TOP - (number + 1) * _HEIGHT - number * _ROW_GAP
@@ -130,7 +130,7 @@ def _row(
             )
             lefts.append(left)
             left += width + _GAP
-        _bar(figure, (_LEFT + left - _GAP / 2, bottom, height), norm, colours, group.label)
+        colour_bar(figure, (_LEFT + left - _GAP / 2, bottom, height), norm, colours, group.label)
         left += _BAR_ROOM - _GAP
     axis.set_yticks([tick for tick in (0, 90, 180, 270, 360) if phi[0] <= tick <= phi[-1]])
     axis.set_ylabel(f"{row.label}\nφ (°)".strip(), fontsize=7.0, labelpad=1.0, parse_math=False)
@@ -166,7 +166,7 @@ def _panel(
     axis.add_patch(frame)
 
 
-def _bar(
+def colour_bar(
     figure: Figure, place: tuple[float, float, float], norm: Normalize, colours: Colormap, label: str
 ) -> None:
     """Draw a colour bar at (left (inches), bottom, height)."""
@@ -236,7 +236,7 @@ def cell_borders(x: Array, phi: Array, inside: NDArray[np.bool_]) -> Array:
     )
 
 
-def _edges(centres: Array) -> Array:
+def edges_of(centres: Array) -> Array:
     """Edges of cells with these centres."""
     if centres.size == 1:
         return np.array([centres[0] - 0.5, centres[0] + 0.5])

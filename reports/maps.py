@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from cases.fields import FIELDS, Field
-from reports.blocks import Figure, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
@@ -89,8 +89,15 @@ def section(comparison: Comparison) -> Section:
         Subsection(f"maps-{k}", f"Variant {name}", (_figure(comparison, name, 0, f"maps-{k}-figure"),))
         for k, name in enumerate(comparison.variants, start=1)
     )
-    others = [instant(*named) for named in comparison.times[1:]]
-    note = f" The fields at {listed(others)} are in comparison.nc." if others else ""
-    return Section(
-        "maps", title, (Paragraph(f"All maps are at {instant(*comparison.times[0])}.{note}"), *figures)
+    slider = Interactive(
+        "maps-anytime",
+        "maps",
+        "The maps at any time",
+        "Choose a variant and a quantity, move the time slider or let it play; point at a map for its "
+        "values.",
     )
+    opening = Paragraph(
+        f"The still maps are at {instant(*comparison.times[0])}; comparison.nc holds all "
+        f"{comparison.fields.sizes['time']} states."
+    )
+    return Section("maps", title, (opening, slider, *figures))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cases.fields import FIELDS
-from reports.blocks import Figure, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.cells import chunks
 from reports.figures import Curves, PanelRow, small_multiples
 from reports.load import Comparison
@@ -32,7 +32,9 @@ class _Line:
 
 
 def _line(comparison: Comparison, variant: str, state: int, j: int, label: str) -> _Line:
-    data = comparison.profiles.sel(variant=variant).isel(time=state, phi=comparison.j.index(j))
+    data = comparison.profiles.sel(variant=variant).isel(
+        time=comparison.states[state], phi=comparison.j.index(j)
+    )
     reference, rom = (data[f"{m}_axial_velocity"].values.astype(float) for m in ("reference", "rom"))
     return _Line(label, comparison.times[state][1], j, reference, rom)
 
@@ -141,5 +143,14 @@ def section(comparison: Comparison) -> Section:
     return Section(
         "profiles",
         title,
-        tuple(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+        (
+            Interactive(
+                "profiles-anytime",
+                "profiles",
+                "The profile at any time",
+                "Choose a variant and a cell, move the time slider or let it play; point at the curves for "
+                "their values.",
+            ),
+            *(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+        ),
     )

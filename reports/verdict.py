@@ -3,7 +3,7 @@
 from collections import Counter
 
 from reports import trust
-from reports.blocks import Block, Bullets, Column, Paragraph, Section, Table, Warnings
+from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Section, Table, Warnings
 from reports.load import Comparison
 from reports.metrics import Row, Status
 from reports.numbers import ABSENT, counted, listed, percent, rounded, unsigned
@@ -185,5 +185,14 @@ def section(comparison: Comparison) -> Section:
     pooled = _pooled_table(comparison)
     if pooled:
         blocks.append(pooled)
+    blocks.append(
+        Interactive(
+            "metrics-all",
+            "metrics",
+            "Every figure of this comparison",
+            "All rows of metrics.json, values in SI units, errors relative to 3D. Choose what to see; a "
+            "click on a heading sorts.",
+        )
+    )
     blocks += [Paragraph("What this comparison does not tell:"), Bullets(unknowns(comparison))]
     return Section("verdict", "Verdict", tuple(blocks))

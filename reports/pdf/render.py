@@ -81,13 +81,15 @@ def displayable(text: str) -> str:
 
 def _plain(value: Any, root: Path) -> Any:
     """Content as JSON: each block names its kind; drawings and data become files beside the template."""
+    if isinstance(value, frozenset):
+        return sorted(value)
     if isinstance(value, tuple):
         return [_plain(item, root) for item in value]
     if isinstance(value, str):
         return displayable(value)
     if not is_dataclass(value):
         return value
-    names = [field.name for field in fields(value) if field.name != "drawing"]
+    names = [field.name for field in fields(value) if field.name not in ("drawing", "data")]
     plain = {name: _plain(getattr(value, name), root) for name in names}
     plain["kind"] = type(value).__name__ if "kind" not in plain else plain["kind"]
     if isinstance(value, Table):
