@@ -40,9 +40,17 @@ def _dominance_tables(comparison: Comparison, quantity: str) -> tuple[Table, ...
                 Column("j", "number"),
                 *(Column(f"i = {i}", "number") for i in cells),
             )
-            caption = f"Largest {_RATIOS[quantity]} of 3D over the ray and the cycle at the shown cells."
+            marked = frozenset(
+                (number, 2 + column)
+                for number, (variant, j, *_) in enumerate(rows)
+                for column, i in enumerate(cells)
+                if comparison.calcified(variant, i, int(j))
+            )
+            caption = f"Largest {_RATIOS[quantity]} of 3D over the ray and the cycle at the shown cells." + (
+                " Shaded: inside the calcification." if marked else ""
+            )
             key = f"{quantity.replace('_', '-')}-{cells[0]}"
-            tables.append(Table(key, caption, columns, tuple(rows), rule_by=0))
+            tables.append(Table(key, caption, columns, tuple(rows), 0, marked, "inside the calcification"))
     return tuple(tables)
 
 

@@ -1,6 +1,9 @@
 """Section 2: what calcification changes, in 3D and in 2D."""
 
+import math
 from dataclasses import dataclass
+
+import numpy as np
 
 from cases.fields import FIELDS, Field
 from reports.blocks import Block, Column, Paragraph, Section, Subsection, Table
@@ -41,7 +44,7 @@ def _cycle_table(comparison: Comparison) -> Table | None:
     rows = [
         row
         for field in _cycle_fields(comparison)
-        for row in _cycle_rows(field, _cycle_lines(comparison, field), bool(comparison.baseline))
+        for row in _cycle_rows(field, _cycle_lines(comparison, field), comparison)
     ]
     if not rows:
         return None
@@ -66,6 +69,9 @@ def _cycle_table(comparison: Comparison) -> Table | None:
             f"{comparison.baseline}. The 2D model gets calcification right where its change, not only "
             "its value, is that of 3D"
         )
+    if any(field.unit == "s" for field in _cycle_fields(comparison)):
+        interval = with_unit(fixed(1e3 * _between_states(comparison), 0), "ms")
+        caption += f". A lag is shown to a twentieth of the {interval} between two states"
     return Table("cycle-quantities", f"{caption}.", tuple(columns), tuple(rows), rule_by=0)
 
 
@@ -77,12 +83,14 @@ def _both(row: Row | None, factor: float = 1.0) -> tuple[float | None, float | N
     return None if three is None else factor * three, None if two is None else factor * two
 
 
-def _cycle_rows(field: Field, lines: list[_CycleLine], with_change: bool) -> list[tuple[str, ...]]:
-    """Rows of one quantity: values to four digits, changes with common decimals."""
+def _cycle_rows(field: Field, lines: list[_CycleLine], comparison: Comparison) -> list[tuple[str, ...]]:
+    """Rows of one quantity: values to four digits, changes with common decimals, times as states allow."""
     values = [_both(line.value, field.display_factor) for line in lines]
     changes = [_both(line.change, field.display_factor) for line in lines]
     ratios = [_both(line.ratio) for line in lines]
     decimals = [decimals_for(pair, 4) for pair in values]
+    if field.unit == "s":
+        decimals = [_time_decimals(comparison)] * len(lines)
     finer = decimals_for([n for pair in changes for n in pair], 3, most=max(decimals) + 1)
     rows = []
     for line, value, places, change, ratio in zip(lines, values, decimals, changes, ratios, strict=True):
@@ -93,11 +101,23 @@ def _cycle_rows(field: Field, lines: list[_CycleLine], with_change: bool) -> lis
             *(fixed(n, places) for n in value),
             percent(line.value.error),
         ]
-        if with_change:
+        if comparison.baseline:
             texts += [plus(fixed(n, finer)) for n in change]
             texts += [fixed(n, decimals_for([n], 4, most=3)) for n in ratio]
         rows.append(tuple(texts))
     return rows
+
+
+def _between_states(comparison: Comparison) -> float:
+    """Time between two states (s)."""
+    time = comparison.fields["time"].values
+    return float(np.median(np.diff(time))) if time.size > 1 else 0.0
+
+
+def _time_decimals(comparison: Comparison) -> int:
+    """Decimals of a time in ms, to a twentieth of the time between two states."""
+    step = 1e3 * _between_states(comparison) / 20
+    return max(0, -math.floor(math.log10(step) + 1e-9)) if step > 0 else 0
 
 
 def _changed(comparison: Comparison) -> tuple[str, ...]:
@@ -197,14 +217,16 @@ def _cell_changes(comparison: Comparison) -> tuple[Block, ...]:
         "change",
         changed,
     )
+    around = tuple(name for name in changed if comparison.wall_varies_around[name])
     for quantity in _CELL_QUANTITIES:
+        by_sector = quantity == "sector_flow_rate"  # a wall that is the same all around has equal sectors
         tables += cell_tables(
             comparison,
             f"change-{quantity}",
             f"Change of the {FIELDS[quantity].label}: variant minus {comparison.baseline}",
             quantity,
             "change",
-            changed,
+            around if by_sector else changed,
         )
     return tables
 

@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
+from reports import error_curves
 from reports.blocks import Figure, Paragraph, Section, Subsection
 from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
@@ -96,7 +97,10 @@ def section(comparison: Comparison) -> Section:
                 Subsection(
                     f"exponents-{k}",
                     f"Variant {name}",
-                    (_figure(comparison, name, f"exponents-{k}-figure"),),
+                    (
+                        *error_curves.figures(comparison, name, f"exponents-{k}-errors"),
+                        _figure(comparison, name, f"exponents-{k}-figure"),
+                    ),
                 )
                 for k, name in enumerate(comparison.variants, start=1)
             ),

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.62, 0.62, 0.22, 0.42
 _GAP, _ROW_GAP = 0.10, 0.14
 _BAR, _BAR_ROOM = 0.08, 0.72  # a colour bar's width, and with its numbers
-_HEIGHT = 0.86
+_HEIGHT, _HEIGHT_OF_MANY, _MANY = 0.86, 0.60, 4  # two figures of many rows share a page
 _MISSING_COLOUR = "#b0b0b0"
 
 
@@ -81,15 +81,16 @@ def heat_maps(
         SVG; the same text for the same input.
     """
     with style.context(STYLE):
-        total = _TOP + _BOTTOM + _HEIGHT * len(rows) + _ROW_GAP * (len(rows) - 1)
+        height = _HEIGHT if len(rows) < _MANY else _HEIGHT_OF_MANY
+        total = _TOP + _BOTTOM + height * len(rows) + _ROW_GAP * (len(rows) - 1)
         figure = Figure(figsize=(WIDTH, total))
         FigureCanvasSVG(figure)
         edges = (edges_of(x), edges_of(phi))
         outline = cell_borders(*edges, calcified)
         for number, row in enumerate(rows):
-            bottom = total - _TOP - (number + 1) * _HEIGHT - number * _ROW_GAP
+            bottom = total - _TOP - (number + 1) * height - number * _ROW_GAP
             titles = columns if number == 0 else ()
-            axis = _row(figure, row, (bottom / total, _HEIGHT / total), edges, outline, titles)
+            axis = _row(figure, row, (bottom / total, height / total), edges, outline, titles)
             axis.tick_params(labelbottom=number == len(rows) - 1)
         figure.supxlabel("distance from the inlet x (mm)", fontsize=7.5, y=0.06 / total, va="bottom")
         return svg_text(figure)
@@ -132,7 +133,7 @@ def _row(
             left += width + _GAP
         colour_bar(figure, (_LEFT + left - _GAP / 2, bottom, height), norm, colours, group.label)
         left += _BAR_ROOM - _GAP
-    axis.set_yticks([tick for tick in (0, 90, 180, 270, 360) if phi[0] <= tick <= phi[-1]])
+    axis.set_yticks([tick for tick in (0, 180, 360) if phi[0] <= tick <= phi[-1]])
     axis.set_ylabel(f"{row.label}\nφ (°)".strip(), fontsize=7.0, labelpad=1.0, parse_math=False)
     ticks = [t for t in MaxNLocator(3, prune="upper").tick_values(x[0], x[-1]) if x[0] <= t <= x[-1]]
     axis.set_xticks(
@@ -185,7 +186,7 @@ def colour_bar(
     bar.yaxis.tick_right()
     bar.yaxis.set_label_position("right")
     bar.set_xticks([])
-    bar.set_yticks([tick for tick in MaxNLocator(4).tick_values(low, high) if low <= tick <= high])
+    bar.set_yticks([tick for tick in MaxNLocator(3).tick_values(low, high) if low <= tick <= high])
     bar.set_ylabel(label, fontsize=7.0, labelpad=1.5)
 
 

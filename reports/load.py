@@ -79,9 +79,10 @@ class Comparison:
         time = self.fields["time"].values
         return tuple(int(np.abs(time - t).argmin()) for _, t in self.times)
 
-    def calcified(self, variant: str, i: int, j: int) -> bool:
-        """Whether cell (i, j) is inside the calcification."""
-        return bool(self.fields["calcified"].sel(variant=variant).values[i - 1, j - 1])
+    def calcified(self, variant: str, i: int, j: int | None = None) -> bool:
+        """Whether cell (i, j), or any cell of section i, is inside the calcification."""
+        inside = self.fields["calcified"].sel(variant=variant).values[i - 1]
+        return bool(inside.any() if j is None else inside[j - 1])
 
     def rows_of(self, variant: str) -> tuple[int, ...]:
         """Rows j worth showing: one where the wall is the same all around, else all."""

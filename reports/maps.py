@@ -1,5 +1,6 @@
 """Section 6: maps of the fields over the unrolled lumen, (x, φ), in both models."""
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -10,7 +11,7 @@ from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
-from reports.numbers import DIFFERENCE_UNITS, listed, signed, with_unit
+from reports.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
 from reports.words import instant, spot
 
 _MAPPED = ("radius", "sector_flow_rate", "profile_exponent", "pressure")
@@ -54,6 +55,25 @@ def _farthest(data: xr.Dataset, quantity: Field) -> str:
     return f"{quantity.label} {value} ({spot(int(i) + 1, int(j) + 1, None)})"
 
 
+def _inside(data: xr.Dataset, quantities: Sequence[Field]) -> str:
+    """Compare the size of the differences in calcified cells and elsewhere; "" where all cells are alike."""
+    calcified = data["calcified"].values > 0
+    if not calcified.any() or calcified.all():
+        return ""
+    said = []
+    for quantity in quantities:
+        unit, factor = DIFFERENCE_UNITS[quantity.unit]
+        sizes = factor * np.abs(_difference(data, quantity.name))
+        if np.isfinite(sizes).all():
+            within, without = (
+                with_unit(rounded(float(sizes[cells].mean()), 2), unit) for cells in (calcified, ~calcified)
+            )
+            said.append(f"{quantity.label} {within} and {without}")
+    return (
+        f" Mean size of the difference in calcified cells and elsewhere: {'; '.join(said)}." if said else ""
+    )
+
+
 def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figure:
     data = comparison.maps.sel(variant=variant).isel(time=state)
     quantities = [FIELDS[name] for name in _MAPPED]
@@ -63,7 +83,8 @@ def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figur
     return Figure(
         key=key,
         caption=f"Variant {variant}, {when}: {what} over the unrolled lumen; 3D and 2D in one scale, 2D − 3D "
-        f"in a scale centred on zero. Farthest apart: {farthest}.{outlined(data)}",
+        f"in a scale centred on zero. What to see: where the right column is pale, 2D is right. "
+        f"Farthest apart: {farthest}.{_inside(data, quantities)}{outlined(data)}",
         alt=f"Maps over x and φ of {what} in 3D, in 2D and their difference, variant {variant}, {when}. "
         f"Farthest apart: {farthest}.",
         drawing=partial(

@@ -145,8 +145,8 @@ def _paint(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array, norm: Norm
     )
     _outline(axis, x, phi, tube, view)
     axis.set_aspect("equal")
+    axis.margins(0.02, 0.07)
     axis.autoscale_view()
-    axis.margins(0.02)
 
 
 def _outline(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array) -> None:
@@ -167,7 +167,8 @@ def _outline(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array) -> None:
 def _scale(axis: Axes, start: float, view: Array) -> None:
     """Draw a bar along the axis of the artery, in millimetres as drawn, below the lumen."""
     left, right = start * view[0, 0], (start + 5.0) * view[0, 0]
-    low = axis.get_ylim()[0]
+    low, high = axis.get_ylim()
+    low -= 0.03 * (high - low)
     axis.plot([left, right], [low, low], color="#000000", linewidth=1.0, clip_on=False)
     axis.annotate(
         "5 mm along the axis; flow from left to right",

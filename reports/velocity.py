@@ -54,6 +54,7 @@ def _panel_row(comparison: Comparison, variant: str, line: _Line, columns: Seque
                 factor * line.reference[k],
                 factor * line.rom[k],
                 _exponents(comparison.metrics, variant, i, line),
+                comparison.calcified(variant, i, line.j),
             )
             for i in columns
             for k in (comparison.i.index(i),)
@@ -88,9 +89,9 @@ def _figures(
                 key=f"{key}-{columns[0]}",
                 caption=f"Variant {variant}, {when}: axial velocity along the ray from the axis "
                 f"(r/R{SPACE}={SPACE}0) to the wall (r/R{SPACE}={SPACE}1) at {cells}; 3D as points, 2D as a "
-                f"line. In these panels {farthest}. "
-                "γ is the exponent of the 2D model's profile and of the profile closest to 3D: 2 is a "
-                "parabola, more is flatter.",
+                f"line. What to see: where the line runs below the points, 2D is too slow. In these panels "
+                f"{farthest}. γ is the exponent of the 2D model's profile and of the profile closest to 3D: "
+                "2 is a parabola, more is flatter.",
                 alt=f"Velocity profiles of 3D and 2D, variant {variant}, {when}, a panel for each of "
                 f"{cells}; {farthest}.",
                 drawing=partial(
