@@ -13,7 +13,7 @@ from reports.fit_errors import Array, fit_errors
 from reports.load import Comparison
 from reports.numbers import SPACE, fixed, listed, percent, unsigned
 from reports.tabular import comma_separated
-from reports.words import column_heading, instant, row_heading, spot
+from reports.words import column_heading, instant, row_heading, spot, top_to_bottom
 
 _LOW, _HIGH, _MOST = 1.0, 6.0, 30.0  # exponents of the curves: a cusp, a blunt profile, nearly plug flow
 _COUNT = 101
@@ -90,11 +90,7 @@ def figures(comparison: Comparison, variant: str, key: str) -> tuple[Figure, ...
     lines = _lines(comparison, variant, exponents)
     price = _price(comparison, lines, exponents)
     several_rows = len(comparison.rows_of(variant)) > 1
-    when = (
-        instant(*comparison.times[0])
-        if several_rows
-        else "from top to bottom " + listed(instant(*named) for named in comparison.times)
-    )
+    when = instant(*comparison.times[0]) if several_rows else top_to_bottom(comparison.times)
     return tuple(
         Figure(
             key=f"{key}-{columns[0]}",

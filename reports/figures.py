@@ -45,7 +45,7 @@ class Curves:
     reference, rom : ndarray, shape (n,) or (0,)
         Ordinates.
     note : str
-        Written into the panel's corner.
+        Written into the panel's lower left corner, or right where only one model has a curve.
     calcified : bool
         Whether the panel's cell is inside the calcification; its background is then tinted.
     marked : tuple of (float, str)
@@ -246,17 +246,18 @@ def _curves(
         for at, colour in panel.marked:
             axis.plot([layout.place(column, at)] * 2, limits, color=colour, linewidth=0.9, linestyle=_DASHES)
         if panel.note:
-            _note(axis, layout, column, panel.note)
+            _note(axis, layout, column, panel.note, on_the_right=not panel.rom.size)
     axis.set_ylabel(row.quantity, fontsize=7.5, va="bottom")
     _row_label(axis, row.label)
 
 
-def _note(axis: Axes, layout: _Layout, column: int, note: str) -> None:
+def _note(axis: Axes, layout: _Layout, column: int, note: str, on_the_right: bool) -> None:
     axis.text(
-        layout.lefts[column] + 0.04 * layout.width,
+        layout.lefts[column] + (0.97 if on_the_right else 0.04) * layout.width,
         0.05,
         note,
         transform=axis.get_xaxis_transform(),
+        ha="right" if on_the_right else "left",
         fontsize=6.0,
         parse_math=False,
     )

@@ -151,10 +151,11 @@ def _paint(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array, norm: Norm
 
 def _outline(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array) -> None:
     """Outline the calcified cells where they face the eye."""
-    borders = cell_borders(edges_of(x), edges_of(phi), tube.calcified)
-    i = np.abs(x[:, None] - borders[..., 0].ravel()).argmin(axis=0)
-    j = np.abs(np.angle(np.exp(1j * (phi[:, None] - borders[..., 1].ravel())))).argmin(axis=0)
-    radius = 1.002 * tube.drawn[i, j].reshape(borders.shape[:2])
+    edges = (edges_of(x), edges_of(phi))
+    borders = cell_borders(*edges, tube.calcified)
+    i = np.abs(edges[0][:, None] - borders[..., 0].ravel()).argmin(axis=0)
+    j = np.abs(edges[1][:, None] - borders[..., 1].ravel()).argmin(axis=0)
+    radius = 1.002 * _at_corners(tube.drawn)[i, j].reshape(borders.shape[:2])
     angle = borders[..., 1]
     at = np.stack([borders[..., 0], radius * np.cos(angle), radius * np.sin(angle)], axis=-1) @ view.T
     middle = angle.mean(axis=1)
@@ -162,6 +163,14 @@ def _outline(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array) -> None:
     ends = np.pad(at[visible, :, :2], ((0, 0), (0, 1), (0, 0)), constant_values=np.nan).reshape(-1, 2)
     for colour, width in (("#ffffff", 1.6), ("#000000", 0.7)):
         axis.plot(*ends.T, color=colour, linewidth=width, solid_capstyle="projecting")
+
+
+def _at_corners(radius: Array) -> Array:
+    """Radius at the cells' corners, shape (n_x + 1, n_phi + 1): the mean of the cells that meet there."""
+    along = np.pad(radius, ((1, 1), (0, 0)), mode="edge")
+    along = (along[1:] + along[:-1]) / 2
+    around = np.pad(along, ((0, 0), (1, 1)), mode="wrap")
+    return np.asarray((around[:, 1:] + around[:, :-1]) / 2)
 
 
 def _scale(axis: Axes, start: float, view: Array) -> None:

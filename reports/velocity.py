@@ -15,7 +15,7 @@ from reports.load import Comparison
 from reports.metrics import Metrics
 from reports.numbers import SPACE, fixed, listed, signed, with_unit
 from reports.tabular import comma_separated
-from reports.words import column_heading, instant, row_heading, spot
+from reports.words import column_heading, instant, row_heading, spot, top_to_bottom
 
 _FIELD = FIELDS["axial_velocity"]
 
@@ -127,7 +127,7 @@ def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:
         lines = [
             _line(comparison, variant, k, rows[0], f"t = {comparison.times[k][1]:.3f} s") for k in states
         ]
-        when = "from top to bottom " + listed(instant(name, t) for name, t in comparison.times)
+        when = top_to_bottom(comparison.times)
         return Subsection(key, f"Variant {variant}", _figures(comparison, variant, f"{key}-all", when, lines))
     figures: tuple[Figure, ...] = ()
     for k in states:

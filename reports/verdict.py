@@ -70,7 +70,7 @@ def by_variant(comparison: Comparison) -> tuple[str, ...]:
             text = "the 2D model is not within what was declared: " + "; ".join(map(_against_limit, failed))
         elif judged:
             nearest = max(judged, key=lambda row: row.ratio)
-            text = f"the 2D model is within every limit that could be judged; nearest is {_against_limit(nearest)}"
+            text = f"the 2D model is within every judged limit; nearest is {_against_limit(nearest)}"
         else:
             text = "nothing can be said"
         unjudged = f"; {counted(missing, 'band')} could not be judged" if missing else ""
