@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from reports.content import report
@@ -65,12 +66,11 @@ def _write_reports(directory: Path) -> Entry:
         comparison = load(directory)
         content = report(comparison)
         drawings = draw({figure.key: figure.drawing for figure in content.figures()}, second)
-    _write(
-        {
-            directory / "report.html": render_html(content, drawings).encode(),
-            directory / "report.pdf": render_pdf(content, drawings),
-        }
-    )
+    with ThreadPoolExecutor(max_workers=1) as pool:  # typst works outside the interpreter's lock
+        pdf = pool.submit(render_pdf, content, drawings)
+        html = render_html(content, drawings).encode()
+        pages = {directory / "report.html": html, directory / "report.pdf": pdf.result()}
+    _write(pages)
     return entry(directory, comparison, content, drawings)
 
 

@@ -76,7 +76,7 @@ def _data_link(figure: Figure) -> Markup:
     """Link to the numbers behind a figure; many are compressed, or they would be most of the page."""
     content, name, mime, words = figure.csv.encode(), f"{figure.key}.csv", "text/csv;charset=utf-8", "CSV"
     if len(content) > _LARGE:
-        content = gzip.compress(content, mtime=0)
+        content = gzip.compress(content, compresslevel=4, mtime=0)
         name, mime, words = f"{name}.gz", "application/gzip", "CSV, gzip"
     return Markup('<a download="{}" href="data:{};base64,{}">Data ({})</a>').format(
         name, mime, base64.b64encode(content).decode(), words

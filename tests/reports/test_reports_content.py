@@ -258,7 +258,7 @@ def test_without_a_baseline_no_change_is_claimed(tmp_path: Path, small: syntheti
 
 
 def test_a_wall_that_is_the_same_all_around_shows_one_row_and_says_so(curves: Section) -> None:
-    none, local = curves.blocks[0], curves.blocks[2]
+    none, local = curves.blocks[1], curves.blocks[3]
     assert isinstance(none, Subsection)
     assert isinstance(local, Subsection)
     assert "one row stands for all: j = 1" in none.blocks[0].text  # type: ignore[union-attr]

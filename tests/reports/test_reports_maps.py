@@ -24,7 +24,7 @@ def _figures(section: Section) -> list[Figure]:
         for part in section.blocks
         if isinstance(part, Subsection)
         for block in part.blocks
-        if isinstance(block, Figure)
+        if isinstance(block, Figure) and block.key.endswith("-figure")
     ]
 
 

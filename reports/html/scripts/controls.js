@@ -9,11 +9,19 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+let controlCount = 0;
+
+// A label above its control; a label around it would be read out with all of the control's words.
+function labelled(label, control, ...rest) {
+  control.id = `control-${++controlCount}`;
+  return element("div", { className: "control" }, element("label", { for: control.id }, label), control, ...rest);
+}
+
 function choice(place, label, options, changed, value = 0) {
   const list = element("select", {}, ...options.map((text, k) => element("option", { value: k }, text)));
   list.value = value;
   list.addEventListener("change", changed);
-  place.append(element("label", { className: "control" }, element("span", {}, label), list));
+  place.append(labelled(label, list));
   return { get value() { return Number(list.value); }, list };
 }
 
@@ -27,7 +35,8 @@ function slider(place, label, most, value, words, changed) {
   };
   tell();
   input.addEventListener("input", () => { tell(); changed(); });
-  const box = element("label", { className: "control wide" }, element("span", {}, label), input, output);
+  const box = labelled(label, input, output);
+  box.classList.add("wide");
   place.append(box);
   return {
     get value() { return Number(input.value); },
