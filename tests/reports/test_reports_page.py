@@ -212,7 +212,9 @@ def test_curves_are_those_of_the_chosen_cell(opened: Opened, finished: Finished)
         "document.querySelector('#curves-anywhere .readout').textContent.startsWith('pressure, variant axis')"
     )
     page.wait_for_timeout(200)
-    drawn = page.evaluate("document.querySelector('#curves-anywhere .plot').data.map((trace) => [...trace.y])")
+    drawn = page.evaluate(
+        "document.querySelector('#curves-anywhere .plot').data.map((trace) => [...trace.y])"
+    )
     with xr.open_dataset(finished[0] / "comparison.nc", decode_times=False) as data:
         cell = data.sel(variant="axisymmetric").isel(x=4, phi=2)
         for y, model in zip(drawn, ("reference", "rom"), strict=False):
