@@ -8,12 +8,13 @@ import numpy as np
 from reports.blocks import Figure, Interactive, Paragraph, Section
 from reports.load import Comparison
 from reports.lumen import CELL_COLUMNS, DIGITS, Array, cell_rows, field
-from reports.numbers import SPACE, fixed, listed
+from reports.numbers import SPACE, fixed, listed, share
 from reports.tabular import comma_separated
 from reports.tubes import Tube, tubes
 from reports.words import instant, spot
 
 _EXAGGERATIONS = (20, 10, 5, 3, 2)
+_NARROWER = 0.01  # a difference of the radius that is read as narrowing
 _MOST_DRAWN = 0.35  # of the radius: a change drawn larger is no artery any more
 
 
@@ -76,6 +77,28 @@ def _narrowest(comparison: Comparison, state: int) -> str:
     return "; ".join(said)
 
 
+def _reach(comparison: Comparison, state: int) -> str:
+    """Say how much of the wall beside the calcification is narrower than the baseline's; "" without one."""
+    if not comparison.baseline:
+        return ""
+    fields = comparison.fields.isel(time=state)
+    base = fields.sel(variant=comparison.baseline)
+    said = []
+    for name in comparison.variants:
+        data = fields.sel(variant=name)
+        beside = data["calcified"].values == 0
+        if name != comparison.baseline and beside.any():
+            three, two = (
+                share(float((data[radius] < (1 - _NARROWER) * base[radius]).values[beside].mean()))
+                for radius in ("reference_radius", "rom_radius")
+            )
+            said.append(f"{name} {three} in 3D and {two} in 2D")
+    opening = (
+        f"; of the other cells, narrower than in {comparison.baseline} by more than {share(_NARROWER)} are: "
+    )
+    return f"{opening}{', '.join(said)}" if said else ""
+
+
 def section(comparison: Comparison) -> Section:
     """Build the section: a still, and a picture to be turned."""
     title = "3D view"
@@ -106,9 +129,8 @@ def section(comparison: Comparison) -> Section:
     still = Figure(
         key="artery-still",
         caption=f"The deformed lumen at {instant(name, t_s)} in 3D and 2D, coloured by its radius, in one "
-        f"scale; {drawn}. Narrowest: {least}. Compare how far the narrowing reaches beyond the calcified "
-        "cells (framed): in 3D a stiff part holds its neighbours, in 2D each cell's wall stands alone. Drawn "
-        "by projection, without OpenGL.",
+        f"scale; {drawn}. Narrowest: {least}. What to see: how far the narrowing reaches beyond the "
+        f"calcified cells (framed){_reach(comparison, state)}. Drawn by projection, without OpenGL.",
         alt=f"The deformed lumen of {listed(comparison.variants)} in 3D and 2D seen from the side. "
         f"Narrowest: {least}.",
         drawing=partial(

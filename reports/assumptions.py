@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from reports import further
 from reports.blocks import Block, Column, Paragraph, Section, Table
 from reports.cells import chunks
 from reports.load import Comparison
@@ -10,6 +11,7 @@ from reports.words import place
 
 _RADIAL, _AZIMUTHAL = "axial_dominance_radial", "axial_dominance_azimuthal"
 _RATIOS = {_RADIAL: "|v_r|/v_x", _AZIMUTHAL: "|v_φ|/v_x"}
+_PLACED = frozenset({*_RATIOS, "axis_velocity_spread", "mass_defect", "backflow_fraction"})
 _DECIMALS = 3
 _NEGLIGIBLE = 0.1
 
@@ -149,4 +151,6 @@ def checks_section(comparison: Comparison) -> Section:
             for title, measure, figures in _ASSUMPTIONS
         ),
     )
-    return Section("assumptions", "Assumptions checked", (table,))
+    others = further.table(comparison, _PLACED)
+    blocks = (table,) if others is None else (table, others)
+    return Section("assumptions", "Assumptions checked", blocks)

@@ -11,15 +11,18 @@ from reports.cells import cell_tables
 from reports.load import Comparison
 from reports.metrics import Row
 from reports.numbers import DIFFERENCE_UNITS, SPACE, decimals_for, fixed, listed, percent, plus, with_unit
-from reports.words import instant, place
+from reports.words import field_of, instant, place
 
 _CELL_QUANTITIES = ("pressure", "radius", "sector_flow_rate")
 _NOTICEABLE = 1e-3  # changes below this share of the baseline's own value are not read as a change
 
 
 def _cycle_fields(comparison: Comparison) -> list[Field]:
-    present = {row.quantity for row in comparison.metrics.rows if row.statistic == "cycle" and not row.status}
-    return [field for field in FIELDS.values() if field.name in present]
+    """Quantities of the whole cycle: those of the table of fields in its order, then others."""
+    rows = [row for row in comparison.metrics.rows if row.statistic == "cycle" and not row.status]
+    present = {row.quantity: field_of(row.quantity, row.unit) for row in rows}
+    known = [field for field in FIELDS.values() if field.name in present]
+    return known + [field for name, field in present.items() if name not in FIELDS]
 
 
 @dataclass(frozen=True)
@@ -71,7 +74,7 @@ def _cycle_table(comparison: Comparison) -> Table | None:
         )
     if any(field.unit == "s" for field in _cycle_fields(comparison)):
         interval = with_unit(fixed(1e3 * _between_states(comparison), 0), "ms")
-        caption += f". A lag is shown to a twentieth of the {interval} between two states"
+        caption += f". States are {interval} apart, so a lag is known no better than to the digits shown"
     return Table("cycle-quantities", f"{caption}.", tuple(columns), tuple(rows), rule_by=0)
 
 
@@ -115,9 +118,9 @@ def _between_states(comparison: Comparison) -> float:
 
 
 def _time_decimals(comparison: Comparison) -> int:
-    """Decimals of a time in ms, to a twentieth of the time between two states."""
+    """Decimals of a time in ms, to about a twentieth of the time between two states."""
     step = 1e3 * _between_states(comparison) / 20
-    return max(0, -math.floor(math.log10(step) + 1e-9)) if step > 0 else 0
+    return max(0, -round(math.log10(step))) if step > 0 else 0
 
 
 def _changed(comparison: Comparison) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from reports.load import Comparison
 from reports.metrics import DIFFERENCE_STATISTICS, Metrics, Row
 from reports.numbers import DIFFERENCE_UNITS
 from reports.packed import Array, pack
-from reports.words import quantity_words, statistic_words
+from reports.words import field_of, quantity_words, statistic_words
 
 MODELS = ("reference", "rom")
 ON_CELLS = ("pressure", "radius", "sector_flow_rate", "profile_exponent")
@@ -85,7 +85,7 @@ def _metrics(metrics: Metrics) -> dict[str, Any]:
         "quantity": _coded([quantity_words(row.quantity) for row in metrics.rows]),
         "statistic": _coded([statistic_words(row.statistic) for row in metrics.rows]),
         "status": _coded([row.status for row in metrics.rows]),
-        "unit": _coded([row.unit for row in metrics.rows]),
+        "unit": _coded([_display(row)[0] for row in metrics.rows]),
         "relative": [row.statistic not in DIFFERENCE_STATISTICS for row in metrics.rows],
         **{name: [_number(row, name) for row in metrics.rows] for name in _NUMBERS},
     }
@@ -94,8 +94,17 @@ def _metrics(metrics: Metrics) -> dict[str, Any]:
 _NUMBERS = ("i", "j", "t_s", "reference", "rom", "error", "band")
 
 
+def _display(row: Row) -> tuple[str, float]:
+    """Unit that people read a row's values in, and display value over stored value."""
+    field = field_of(row.quantity, row.unit)
+    return (field.display_unit, field.display_factor) if row.unit == field.unit else (row.unit, 1.0)
+
+
 def _number(row: Row, name: str) -> float | None:
     value = getattr(row, name)
+    relative = name in ("error", "band") and row.statistic not in DIFFERENCE_STATISTICS
+    if name in ("reference", "rom", "error", "band") and value is not None and not relative:
+        value *= _display(row)[1]
     return float(f"{value:.6g}") if isinstance(value, float) else value
 
 

@@ -79,6 +79,8 @@ def tubes(
         FigureCanvasSVG(figure)
         width = (WIDTH - _LEFT - _RIGHT) / len(columns)
         view = _view(seen_from)
+        most = max(float(tube.drawn.max()) for _, line in rows for tube in line)
+        across = _across(x, most, view)
         for number, (name, line) in enumerate(rows):
             bottom = total - _TOP - (number + 1) * _HEIGHT
             for column, tube in enumerate(line):
@@ -87,6 +89,9 @@ def tubes(
                 )
                 axis.set_axis_off()
                 _paint(axis, x, phi, tube, view, norm)
+                axis.set_xlim(*across)
+                axis.set_ylim(-1.1 * most, 1.1 * most)
+                axis.set_aspect("equal")
                 if number == 0:
                     axis.set_title(columns[column], fontsize=7.5, pad=2.0)
                 if number == len(rows) - 1 and column == 0:
@@ -112,6 +117,13 @@ def _view(seen_from: float) -> Array:
     up = np.array([0.0, np.sin(seen_from), -np.cos(seen_from)])
     right = np.cross(up, eye)
     return np.stack([right, np.cross(eye, right), eye])
+
+
+def _across(x: Array, radius: float, view: Array) -> tuple[float, float]:
+    """Leftmost and rightmost point of a tube of this radius."""
+    ends = np.array([x[0], x[-1]]) * view[0, 0]
+    aside = radius * float(np.hypot(view[0, 1], view[0, 2]))
+    return float(ends.min()) - aside, float(ends.max()) + aside
 
 
 def _points(x: Array, phi: Array, radius: Array) -> Array:
@@ -144,9 +156,6 @@ def _paint(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array, norm: Norm
         )
     )
     _outline(axis, x, phi, tube, view)
-    axis.set_aspect("equal")
-    axis.margins(0.02, 0.07)
-    axis.autoscale_view()
 
 
 def _outline(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array) -> None:
@@ -176,8 +185,7 @@ def _at_corners(radius: Array) -> Array:
 def _scale(axis: Axes, start: float, view: Array) -> None:
     """Draw a bar along the axis of the artery, in millimetres as drawn, below the lumen."""
     left, right = start * view[0, 0], (start + 5.0) * view[0, 0]
-    low, high = axis.get_ylim()
-    low -= 0.03 * (high - low)
+    low = axis.get_ylim()[0]
     axis.plot([left, right], [low, low], color="#000000", linewidth=1.0, clip_on=False)
     axis.annotate(
         "5 mm along the axis; flow from left to right",

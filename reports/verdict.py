@@ -186,7 +186,7 @@ def section(comparison: Comparison) -> Section:
             "metrics-all",
             "metrics",
             "Every figure of this comparison",
-            "All rows of metrics.json, values in SI units, errors relative to 3D. Choose what to see; a "
+            "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
             "click on a heading sorts.",
         )
     )
