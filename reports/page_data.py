@@ -95,7 +95,7 @@ _NUMBERS = ("i", "j", "t_s", "reference", "rom", "error", "band")
 
 
 def _display(row: Row) -> tuple[str, float]:
-    """Unit that people read a row's values in, and display value over stored value."""
+    """Return the unit that people read a row's values in, and display over stored value."""
     field = field_of(row.quantity, row.unit)
     return (field.display_unit, field.display_factor) if row.unit == field.unit else (row.unit, 1.0)
 

@@ -330,7 +330,6 @@ def _extra(variant: str, **what: Any) -> dict[str, Any]:
 
 def test_rows_that_the_report_does_not_know_are_shown(tmp_path: Path, small: synthetic.Setup) -> None:
     rows = synthetic.write(tmp_path, small)
-    stress = "wall_shear_stress"
     rows += [
         _extra("local", quantity="wall_shear_stress", statistic="cycle", unit="Pa", rom=1.5, reference=1.2),
         _extra(
