@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from cases.fields import FIELDS, Field
 from reports.blocks import Block, Figure, Interactive, Paragraph, Section, Subsection
 from reports.cells import chunks
-from reports.figures import Curves, PanelRow, small_multiples
+from reports.figures import small_multiples
 from reports.load import Comparison
 from reports.numbers import DIFFERENCE_UNITS, SPACE, fixed, listed, rounded, signed, with_unit
+from reports.panels import Curves, PanelRow
 from reports.tabular import comma_separated
 from reports.words import column_heading, row_heading, spot
 

@@ -8,10 +8,11 @@ import numpy as np
 
 from reports.blocks import Figure
 from reports.cells import chunks
-from reports.figures import REFERENCE_COLOUR, ROM_COLOUR, Curves, PanelRow, small_multiples
+from reports.figures import REFERENCE_COLOUR, ROM_COLOUR, small_multiples
 from reports.fit_errors import Array, fit_errors
 from reports.load import Comparison
 from reports.numbers import SPACE, fixed, listed, percent, unsigned
+from reports.panels import Curves, PanelRow
 from reports.tabular import comma_separated
 from reports.words import column_heading, instant, row_heading, spot, top_to_bottom
 

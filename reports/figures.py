@@ -6,7 +6,6 @@ panel's left edge: thirty Axes a figure would take a second to draw.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import style
@@ -17,95 +16,21 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
 from reports.drawing import STYLE, WIDTH, svg_text
-
-Array = NDArray[np.float64]
+from reports.panels import LEFT, Array, Curves, Layout, PanelRow
 
 REFERENCE_COLOUR = "#1a1a1a"
 ROM_COLOUR = "#0072b2"
 DIFFERENCE_COLOUR = "#b8480b"
 TINT = "#f4ead8"
 _MARK_COLOUR = "#9a9a9a"
-_LEFT, _RIGHT, _TOP, _BOTTOM, _GAP = 0.62, 0.26, 0.50, 0.40, 0.10
+_TOP, _BOTTOM = 0.50, 0.40
 _CURVE_HEIGHT, _CURVE_HEIGHT_ALONE, _DIFFERENCE_HEIGHT = 1.22, 0.86, 0.72
 _ROW_GAP = 0.14
 _LABEL = 0.40  # of the axis labels, left of the panels
 _MOST_MARKERS = 45
 _DASHES = (0, (4, 1))
-
-
-@dataclass(frozen=True)
-class Curves:
-    """Both models in one panel, in display units; a model without a curve has an empty array.
-
-    Attributes
-    ----------
-    reference, rom : ndarray, shape (n,) or (0,)
-        Ordinates.
-    note : str
-        Written into the panel's lower left corner, or right where only one model has a curve.
-    calcified : bool
-        Whether the panel's cell is inside the calcification; its background is then tinted.
-    marked : tuple of (float, str)
-        Abscissas of vertical lines of this panel alone, with their colours.
-    """
-
-    reference: Array
-    rom: Array
-    note: str = ""
-    calcified: bool = False
-    marked: tuple[tuple[float, str], ...] = ()
-
-
-@dataclass(frozen=True)
-class PanelRow:
-    """One row of panels.
-
-    Attributes
-    ----------
-    quantity : str
-        Axis label with unit.
-    label : str
-        Written at the row's right edge: which cell row, instant or quantity.
-    panels : tuple of Curves
-        One a column.
-    difference : str
-        Axis label of the panels for 2D − 3D below the curves; "" for none.
-    difference_factor : float
-        Unit of the differences over that of the curves.
-    """
-
-    quantity: str
-    label: str
-    panels: tuple[Curves, ...]
-    difference: str = ""
-    difference_factor: float = 1.0
-
-
-@dataclass(frozen=True)
-class _Layout:
-    """Where panels stand along a row (inches), and what their abscissas mean."""
-
-    count: int
-    low: float
-    high: float
-
-    @property
-    def width(self) -> float:
-        """Of one panel."""
-        return (WIDTH - _LEFT - _RIGHT - _GAP * (self.count - 1)) / self.count
-
-    @property
-    def lefts(self) -> list[float]:
-        """Left edges of the panels."""
-        return [k * (self.width + _GAP) for k in range(self.count)]
-
-    def place(self, column: int, abscissa: Array | float) -> Array:
-        """Inches from the first panel's left edge."""
-        share = (np.asarray(abscissa, dtype=float) - self.low) / (self.high - self.low)
-        return np.asarray(self.lefts[column] + self.width * share)
 
 
 def small_multiples(
@@ -142,7 +67,7 @@ def small_multiples(
         SVG; the same text for the same input.
     """
     with style.context(STYLE):
-        layout = _Layout(len(columns), *_limits([abscissa], from_zero=False))
+        layout = Layout(len(columns), *_limits([abscissa], from_zero=False))
         heights = [
             height
             for row in rows
@@ -165,13 +90,13 @@ def small_multiples(
         return svg_text(figure)
 
 
-def _axes(figure: Figure, heights: Sequence[float], layout: _Layout, total: float) -> list[Axes]:
+def _axes(figure: Figure, heights: Sequence[float], layout: Layout, total: float) -> list[Axes]:
     """One Axes a row, from top to bottom."""
     axes, top = [], total - _TOP
     across = layout.lefts[-1] + layout.width
     for height in heights:
         bottom = top - height
-        axis = figure.add_axes((_LEFT / WIDTH, bottom / total, across / WIDTH, height / total))
+        axis = figure.add_axes((LEFT / WIDTH, bottom / total, across / WIDTH, height / total))
         axis.set_xlim(0.0, across)
         axis.yaxis.set_label_coords(-_LABEL / across, 0.5)
         axis.spines[["left", "bottom", "top", "right"]].set_visible(False)
@@ -207,7 +132,7 @@ def _legend(figure: Figure, rows: Sequence[PanelRow], marked: bool, names: tuple
     figure.legend(
         handles=handles,
         loc="upper left",
-        bbox_to_anchor=(_LEFT / WIDTH, 1.0),
+        bbox_to_anchor=(LEFT / WIDTH, 1.0),
         borderaxespad=0.3,
         ncols=len(handles),
         frameon=False,
@@ -217,7 +142,7 @@ def _legend(figure: Figure, rows: Sequence[PanelRow], marked: bool, names: tuple
 
 def _curves(
     axis: Axes,
-    layout: _Layout,
+    layout: Layout,
     row: PanelRow,
     abscissa: Array,
     marks: Sequence[float],
@@ -251,7 +176,7 @@ def _curves(
     _row_label(axis, row.label)
 
 
-def _note(axis: Axes, layout: _Layout, column: int, note: str, on_the_right: bool) -> None:
+def _note(axis: Axes, layout: Layout, column: int, note: str, on_the_right: bool) -> None:
     axis.text(
         layout.lefts[column] + (0.97 if on_the_right else 0.04) * layout.width,
         0.05,
@@ -263,7 +188,7 @@ def _note(axis: Axes, layout: _Layout, column: int, note: str, on_the_right: boo
     )
 
 
-def _differences(axis: Axes, layout: _Layout, row: PanelRow, abscissa: Array, marks: Sequence[float]) -> None:
+def _differences(axis: Axes, layout: Layout, row: PanelRow, abscissa: Array, marks: Sequence[float]) -> None:
     differences = [row.difference_factor * (panel.rom - panel.reference) for panel in row.panels]
     _ordinates(axis, layout, _limits([*differences, np.zeros(1)], from_zero=False), 3)
     axis.add_collection(
@@ -282,7 +207,7 @@ def _differences(axis: Axes, layout: _Layout, row: PanelRow, abscissa: Array, ma
     axis.set_ylabel(row.difference, fontsize=7.0, va="bottom")
 
 
-def _background(axis: Axes, layout: _Layout, column: int, panel: Curves, marks: Sequence[float]) -> None:
+def _background(axis: Axes, layout: Layout, column: int, panel: Curves, marks: Sequence[float]) -> None:
     """Draw the tint of a calcified cell, the panel's own axis, and the named instants."""
     transform = axis.get_xaxis_transform()
     left = layout.lefts[column]
@@ -302,7 +227,7 @@ def _background(axis: Axes, layout: _Layout, column: int, panel: Curves, marks: 
     )
 
 
-def _abscissas(axis: Axes, layout: _Layout) -> None:
+def _abscissas(axis: Axes, layout: Layout) -> None:
     """Write numbers below the last row's panels."""
     ticks = _ticks(layout.low, layout.high, 3)
     words = [f"{tick:g}" for tick in ticks]
@@ -310,7 +235,7 @@ def _abscissas(axis: Axes, layout: _Layout) -> None:
     axis.set_xticks(places, words * layout.count)
 
 
-def _ordinates(axis: Axes, layout: _Layout, limits: tuple[float, float], most: int) -> None:
+def _ordinates(axis: Axes, layout: Layout, limits: tuple[float, float], most: int) -> None:
     """Give a row of panels its vertical axis: numbers at its left edge and lines across every panel."""
     ticks = _ticks(*limits, most)
     axis.set_ylim(*limits)

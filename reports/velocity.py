@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from cases.fields import FIELDS
 from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.cells import chunks
-from reports.figures import Curves, PanelRow, small_multiples
+from reports.figures import small_multiples
 from reports.load import Comparison
 from reports.metrics import Metrics
 from reports.numbers import SPACE, fixed, listed, signed, with_unit
+from reports.panels import Curves, PanelRow
 from reports.tabular import comma_separated
 from reports.words import column_heading, instant, row_heading, spot, top_to_bottom
 

@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 from reports.drawn import draw, helper
-from reports.figures import Curves, PanelRow, small_multiples
+from reports.figures import small_multiples
 from reports.heat_maps import cell_borders
+from reports.panels import Curves, PanelRow
 from reports.tubes import Tube, tubes
 
 
