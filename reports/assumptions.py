@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from reports import further
 from reports.blocks import Block, Column, Paragraph, Section, Table
 from reports.cells import chunks
 from reports.load import Comparison
@@ -10,6 +11,7 @@ from reports.words import place
 
 _RADIAL, _AZIMUTHAL = "axial_dominance_radial", "axial_dominance_azimuthal"
 _RATIOS = {_RADIAL: "|v_r|/v_x", _AZIMUTHAL: "|v_φ|/v_x"}
+_PLACED = frozenset({*_RATIOS, "axis_velocity_spread", "mass_defect", "backflow_fraction"})
 _DECIMALS = 3
 _NEGLIGIBLE = 0.1
 
@@ -40,9 +42,17 @@ def _dominance_tables(comparison: Comparison, quantity: str) -> tuple[Table, ...
                 Column("j", "number"),
                 *(Column(f"i = {i}", "number") for i in cells),
             )
-            caption = f"Largest {_RATIOS[quantity]} of 3D over the ray and the cycle at the shown cells."
+            marked = frozenset(
+                (number, 2 + column)
+                for number, (variant, j, *_) in enumerate(rows)
+                for column, i in enumerate(cells)
+                if comparison.calcified(variant, i, int(j))
+            )
+            caption = f"Largest {_RATIOS[quantity]} of 3D over the ray and the cycle at the shown cells." + (
+                " Shaded: inside the calcification." if marked else ""
+            )
             key = f"{quantity.replace('_', '-')}-{cells[0]}"
-            tables.append(Table(key, caption, columns, tuple(rows), rule_by=0))
+            tables.append(Table(key, caption, columns, tuple(rows), 0, marked, "inside the calcification"))
     return tuple(tables)
 
 
@@ -141,4 +151,6 @@ def checks_section(comparison: Comparison) -> Section:
             for title, measure, figures in _ASSUMPTIONS
         ),
     )
-    return Section("assumptions", "Assumptions checked", (table,))
+    others = further.table(comparison, _PLACED)
+    blocks = (table,) if others is None else (table, others)
+    return Section("assumptions", "Assumptions checked", blocks)

@@ -1,8 +1,11 @@
 """What a report is made of, whatever it is rendered to."""
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Literal
+
+_FILTERED = ("variant", "quantity", "verdict")
 
 ColumnKind = Literal["text", "prose", "number", "status", "code"]
 
@@ -45,16 +48,30 @@ class Column:
     kind: ColumnKind = "text"
     group: str = ""
 
+    @property
+    def filters(self) -> bool:
+        """Whether readers may want only the rows with one of this column's values."""
+        return self.title in _FILTERED
+
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of text under captioned columns; a rule separates rows that differ in column `rule_by`."""
+    """Rows of text under captioned columns; a rule separates rows that differ in column `rule_by`.
+
+    Cells (row, column), counted from 0, in `marked` are set apart from the others; `mark` says what they are.
+    """
 
     key: str
     caption: str
     columns: tuple[Column, ...]
     rows: tuple[tuple[str, ...], ...]
     rule_by: int | None = None
+    marked: frozenset[tuple[int, int]] = frozenset()
+    mark: str = ""
+
+    def marks(self, row: int, column: int) -> bool:
+        """Whether a cell is set apart."""
+        return (row, column) in self.marked
 
     def groups(self) -> tuple[tuple[str, int], ...]:
         """Headings above the columns' own, with how many columns each spans; empty if there are none."""
@@ -71,16 +88,39 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing with the words that stand for it and the numbers behind it."""
+    """A drawing with the words that stand for it and the numbers behind it.
+
+    `drawing` returns its SVG, always the same; it can be pickled, so that another process may call it.
+    """
 
     key: str
     caption: str
     alt: str
-    svg: str
+    drawing: Callable[[], str]
     csv: str
 
 
-Block = Paragraph | Bullets | Warnings | Listing | Table | Figure
+@dataclass(frozen=True)
+class Interactive:
+    """A picture that a page with scripts draws from its data; elsewhere the figures stand for it.
+
+    Attributes
+    ----------
+    key, title : str
+        Anchor and heading.
+    picture : str
+        Which of the page's scripts draws it.
+    text : str
+        What can be done with it.
+    """
+
+    key: str
+    picture: Literal["curves", "profiles", "maps", "artery", "metrics"]
+    title: str
+    text: str
+
+
+Block = Paragraph | Bullets | Warnings | Listing | Table | Figure | Interactive
 
 
 @dataclass(frozen=True)
@@ -115,6 +155,8 @@ class Report:
         ISO time of the comparison; the only clock a report knows.
     sections : tuple of Section
         In reading order.
+    data : str
+        JSON that interactive pictures are drawn from.
     """
 
     title: str
@@ -122,3 +164,12 @@ class Report:
     identity: str
     created: str
     sections: tuple[Section, ...]
+    data: str
+
+    def figures(self) -> Iterator[Figure]:
+        """All figures, in reading order."""
+        for section in self.sections:
+            for part in section.blocks:
+                for block in part.blocks if isinstance(part, Subsection) else (part,):
+                    if isinstance(block, Figure):
+                        yield block

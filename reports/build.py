@@ -1,9 +1,13 @@
-"""Both renderings of one comparison, written beside it."""
+"""Both renderings of one comparison, written beside it; a page for several."""
 
 import os
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from reports.content import report
+from reports.drawn import draw, helper
+from reports.gallery import Entry, entry, gallery_place, render_gallery
 from reports.html import render_html
 from reports.load import load
 from reports.pdf import render_pdf
@@ -29,22 +33,53 @@ def write_reports(directory: Path) -> tuple[Path, Path]:
     ReportError
         If the directory is not a finished comparison.
     """
-    content = report(load(directory))
-    pages = {
-        directory / "report.html": render_html(content).encode(),
-        directory / "report.pdf": render_pdf(content),
-    }
+    _write_reports(directory)
+    return directory / "report.html", directory / "report.pdf"
+
+
+def write_gallery(directories: list[Path]) -> Path:
+    """Write the reports of several finished comparisons, and a page that leads to them, the worst first.
+
+    Parameters
+    ----------
+    directories : list of Path
+        As for :func:`write_reports`.
+
+    Returns
+    -------
+    Path
+        gallery.html in the nearest folder that holds all directories.
+
+    Raises
+    ------
+    ReportError
+        If one is not a finished comparison; the page is then not written.
+    """
+    entries = [_write_reports(directory) for directory in directories]
+    place = gallery_place(directories)
+    _write({place: render_gallery(entries, place).encode()})
+    return place
+
+
+def _write_reports(directory: Path) -> Entry:
+    with helper() as second:
+        comparison = load(directory)
+        content = report(comparison)
+        drawings = draw({figure.key: figure.drawing for figure in content.figures()}, second)
+    with ThreadPoolExecutor(max_workers=1) as pool:  # typst works outside the interpreter's lock
+        pdf = pool.submit(render_pdf, content, drawings)
+        html = render_html(content, drawings).encode()
+        pages = {directory / "report.html": html, directory / "report.pdf": pdf.result()}
+    _write(pages)
+    return entry(directory, comparison, content, drawings)
+
+
+def _write(pages: Mapping[Path, bytes]) -> None:
+    """Write each page whole or not at all: a reader never finds half a file."""
     for path, data in pages.items():
-        _write(path, data)
-    html, pdf = pages
-    return html, pdf
-
-
-def _write(path: Path, data: bytes) -> None:
-    """Write all or nothing: a reader never finds half a file."""
-    partial = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        partial.write_bytes(data)
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
+        partial = path.with_name(f".{path.name}.{os.getpid()}")
+        try:
+            partial.write_bytes(data)
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)

@@ -55,7 +55,17 @@ def cell_tables(
         return fixed(three, decimals), fixed(two, decimals)
 
     tables = []
+    mark = "section through the calcification" if sections else "inside the calcification"
     for cells in chunks(comparison.i):
+        shown = [line for line in lines if any(found[line, i] for i in cells)]
+        first = 2 if sections else 3
+        marked = frozenset(
+            (number, first + 2 * column + model)
+            for number, line in enumerate(shown)
+            for column, i in enumerate(cells)
+            if comparison.calcified(line[0], i, line[3])
+            for model in (0, 1)
+        )
         heading = (Column("variant"), Column("time"), *(() if sections else (Column("j", "number"),)))
         body = tuple(
             (
@@ -64,12 +74,12 @@ def cell_tables(
                 *(() if sections else (str(line[3]),)),
                 *(text for i in cells for text in pair(found[line, i])),
             )
-            for line in lines
-            if any(found[line, i] for i in cells)
+            for line in shown
         )
         columns = tuple(Column(model, "number", f"i = {i}") for i in cells for model in ("3D", "2D"))
         suffix = "" if len(comparison.i) <= _MOST_COLUMNS else f"-{cells[0]}"
-        tables.append(Table(f"{key}{suffix}", f"{caption}; in {unit}.", heading + columns, body, rule_by=0))
+        said = f"{caption}; in {unit}." + (f" Shaded: {mark}." if marked else "")
+        tables.append(Table(f"{key}{suffix}", said, heading + columns, body, 0, marked, mark))
     return tuple(tables)
 
 

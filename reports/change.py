@@ -1,6 +1,9 @@
 """Section 2: what calcification changes, in 3D and in 2D."""
 
+import math
 from dataclasses import dataclass
+
+import numpy as np
 
 from cases.fields import FIELDS, Field
 from reports.blocks import Block, Column, Paragraph, Section, Subsection, Table
@@ -8,15 +11,18 @@ from reports.cells import cell_tables
 from reports.load import Comparison
 from reports.metrics import Row
 from reports.numbers import DIFFERENCE_UNITS, SPACE, decimals_for, fixed, listed, percent, plus, with_unit
-from reports.words import instant, place
+from reports.words import field_of, instant, place
 
 _CELL_QUANTITIES = ("pressure", "radius", "sector_flow_rate")
 _NOTICEABLE = 1e-3  # changes below this share of the baseline's own value are not read as a change
 
 
 def _cycle_fields(comparison: Comparison) -> list[Field]:
-    present = {row.quantity for row in comparison.metrics.rows if row.statistic == "cycle" and not row.status}
-    return [field for field in FIELDS.values() if field.name in present]
+    """Quantities of the whole cycle: those of the table of fields in its order, then others."""
+    rows = [row for row in comparison.metrics.rows if row.statistic == "cycle" and not row.status]
+    present = {row.quantity: field_of(row.quantity, row.unit) for row in rows}
+    known = [field for field in FIELDS.values() if field.name in present]
+    return known + [field for name, field in present.items() if name not in FIELDS]
 
 
 @dataclass(frozen=True)
@@ -41,7 +47,7 @@ def _cycle_table(comparison: Comparison) -> Table | None:
     rows = [
         row
         for field in _cycle_fields(comparison)
-        for row in _cycle_rows(field, _cycle_lines(comparison, field), bool(comparison.baseline))
+        for row in _cycle_rows(field, _cycle_lines(comparison, field), comparison)
     ]
     if not rows:
         return None
@@ -66,6 +72,9 @@ def _cycle_table(comparison: Comparison) -> Table | None:
             f"{comparison.baseline}. The 2D model gets calcification right where its change, not only "
             "its value, is that of 3D"
         )
+    if any(field.unit == "s" for field in _cycle_fields(comparison)):
+        interval = with_unit(fixed(1e3 * _between_states(comparison), 0), "ms")
+        caption += f". States are {interval} apart, so a lag is known no better than to the digits shown"
     return Table("cycle-quantities", f"{caption}.", tuple(columns), tuple(rows), rule_by=0)
 
 
@@ -77,12 +86,14 @@ def _both(row: Row | None, factor: float = 1.0) -> tuple[float | None, float | N
     return None if three is None else factor * three, None if two is None else factor * two
 
 
-def _cycle_rows(field: Field, lines: list[_CycleLine], with_change: bool) -> list[tuple[str, ...]]:
-    """Rows of one quantity: values to four digits, changes with common decimals."""
+def _cycle_rows(field: Field, lines: list[_CycleLine], comparison: Comparison) -> list[tuple[str, ...]]:
+    """Rows of one quantity: values to four digits, changes with common decimals, times as states allow."""
     values = [_both(line.value, field.display_factor) for line in lines]
     changes = [_both(line.change, field.display_factor) for line in lines]
     ratios = [_both(line.ratio) for line in lines]
     decimals = [decimals_for(pair, 4) for pair in values]
+    if field.unit == "s":
+        decimals = [_time_decimals(comparison)] * len(lines)
     finer = decimals_for([n for pair in changes for n in pair], 3, most=max(decimals) + 1)
     rows = []
     for line, value, places, change, ratio in zip(lines, values, decimals, changes, ratios, strict=True):
@@ -93,11 +104,23 @@ def _cycle_rows(field: Field, lines: list[_CycleLine], with_change: bool) -> lis
             *(fixed(n, places) for n in value),
             percent(line.value.error),
         ]
-        if with_change:
+        if comparison.baseline:
             texts += [plus(fixed(n, finer)) for n in change]
             texts += [fixed(n, decimals_for([n], 4, most=3)) for n in ratio]
         rows.append(tuple(texts))
     return rows
+
+
+def _between_states(comparison: Comparison) -> float:
+    """Time between two states (s)."""
+    time = comparison.fields["time"].values
+    return float(np.median(np.diff(time))) if time.size > 1 else 0.0
+
+
+def _time_decimals(comparison: Comparison) -> int:
+    """Decimals of a time in ms, to about a twentieth of the time between two states."""
+    step = 1e3 * _between_states(comparison) / 20
+    return max(0, -round(math.log10(step))) if step > 0 else 0
 
 
 def _changed(comparison: Comparison) -> tuple[str, ...]:
@@ -197,14 +220,16 @@ def _cell_changes(comparison: Comparison) -> tuple[Block, ...]:
         "change",
         changed,
     )
+    around = tuple(name for name in changed if comparison.wall_varies_around[name])
     for quantity in _CELL_QUANTITIES:
+        by_sector = quantity == "sector_flow_rate"  # a wall that is the same all around has equal sectors
         tables += cell_tables(
             comparison,
             f"change-{quantity}",
             f"Change of the {FIELDS[quantity].label}: variant minus {comparison.baseline}",
             quantity,
             "change",
-            changed,
+            around if by_sector else changed,
         )
     return tables
 

@@ -1,9 +1,10 @@
 """What the report says, once, for every rendering."""
 
-from reports import assumptions, change, cycle, exponents, maps, provenance, velocity, verdict
+from reports import artery, assumptions, change, cycle, exponents, maps, provenance, velocity, verdict
 from reports.blocks import Report
 from reports.load import Comparison
 from reports.numbers import counted, listed
+from reports.page_data import page_data
 
 
 def identity(comparison: Comparison) -> str:
@@ -36,6 +37,8 @@ def report(comparison: Comparison) -> Report:
             maps.section(comparison),
             assumptions.dominance_section(comparison),
             assumptions.checks_section(comparison),
+            artery.section(comparison),
             provenance.section(comparison),
         ),
+        data=page_data(comparison),
     )

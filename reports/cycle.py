@@ -2,16 +2,18 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cases.fields import FIELDS, Field
-from reports.blocks import Block, Figure, Paragraph, Section, Subsection
+from reports.blocks import Block, Figure, Interactive, Paragraph, Section, Subsection
 from reports.cells import chunks
-from reports.figures import Curves, PanelRow, small_multiples
+from reports.figures import small_multiples
 from reports.load import Comparison
-from reports.numbers import DIFFERENCE_UNITS, SPACE, fixed, listed, signed, with_unit
+from reports.numbers import DIFFERENCE_UNITS, SPACE, fixed, listed, rounded, signed, with_unit
+from reports.panels import Curves, PanelRow
 from reports.tabular import comma_separated
 from reports.words import column_heading, row_heading, spot
 
@@ -38,16 +40,20 @@ def _line(comparison: Comparison, variant: str, quantity: str, j: int | None) ->
     return _Line(FIELDS[quantity], j, reference, rom)
 
 
-def _panel_row(comparison: Comparison, line: _Line, columns: Sequence[int]) -> PanelRow:
+def _panel_row(comparison: Comparison, variant: str, line: _Line, columns: Sequence[int]) -> PanelRow:
     field = line.field
     unit, factor = DIFFERENCE_UNITS[field.unit]
-    at = [comparison.i.index(i) for i in columns]
     return PanelRow(
         quantity=f"{_SYMBOLS[field.name]} ({field.display_unit})",
         label="section" if line.j is None else row_heading(comparison, line.j),
         panels=tuple(
-            Curves(field.display_factor * line.reference[:, k], field.display_factor * line.rom[:, k])
-            for k in at
+            Curves(
+                field.display_factor * line.reference[:, k],
+                field.display_factor * line.rom[:, k],
+                calcified=comparison.calcified(variant, i, line.j),
+            )
+            for i in columns
+            for k in (comparison.i.index(i),)
         ),
         difference=f"2D − 3D ({unit})",
         difference_factor=factor / field.display_factor,
@@ -64,6 +70,19 @@ def _farthest(comparison: Comparison, line: _Line) -> str:
     return f"{line.field.label} {value} ({spot(comparison.i[int(column)], line.j, t)})"
 
 
+def _kind(line: _Line) -> str:
+    """Say whether the largest difference of a line is an offset or changes over the cycle."""
+    difference = line.rom - line.reference
+    column = int(np.abs(difference).max(axis=0).argmax())
+    unit, factor = DIFFERENCE_UNITS[line.field.unit]
+    mean, spread = factor * float(difference[:, column].mean()), factor * float(difference[:, column].std())
+    kind = "mostly a constant offset" if abs(mean) > 2 * spread else "mostly a change over the cycle"
+    return (
+        f"{line.field.label}: {kind} ({with_unit(signed(mean), unit)} in the mean, "
+        f"± {with_unit(rounded(spread, 2), unit)})"
+    )
+
+
 def _worst_line(lines: Sequence[_Line]) -> _Line:
     return max(lines, key=lambda line: float(np.abs(line.rom - line.reference).max()))
 
@@ -74,14 +93,16 @@ def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Li
     by_name = [_worst_line([line for line in lines if line.field.label == name]) for name in names]
     farthest = "; ".join(_farthest(comparison, line) for line in by_name)
     what = listed(names)
+    kinds = "; ".join(_kind(line) for line in by_name)
     figures = []
     for columns in chunks(comparison.i):
         cells = f"cells i = {listed(columns)}"
-        svg = small_multiples(
+        drawing = partial(
+            small_multiples,
             time,
             "time into the cycle (s)",
             [column_heading(comparison, i) for i in columns],
-            [_panel_row(comparison, line, columns) for line in lines],
+            [_panel_row(comparison, variant, line, columns) for line in lines],
             marks=[t for _, t in comparison.times],
         )
         figures.append(
@@ -89,11 +110,11 @@ def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Li
                 key=f"{key}-{columns[0]}",
                 caption=f"Variant {variant}: {what} over the cycle at {cells}; 3D as points, 2D as a line, "
                 f"2D − 3D below; each row has its own scale. Farthest apart: {farthest}. "
-                "The closer the lower panels stay to zero, the better the 2D model follows; a flat line off "
-                "zero is a constant offset. Dotted: the named times.",
+                f"What to see: the closer the lower panels stay to zero, the better 2D follows 3D. Where "
+                f"farthest apart, the difference is, {kinds}.",
                 alt=f"Curves of {what} over time in 3D and 2D with their difference, variant {variant}, a "
                 f"column of panels for each of {cells}. Farthest apart: {farthest}.",
-                svg=svg,
+                drawing=drawing,
                 csv=_csv(comparison, lines, columns),
             )
         )
@@ -156,5 +177,13 @@ def section(comparison: Comparison) -> Section:
     return Section(
         "cycle",
         "Pressure, radius and flow over the cycle",
-        tuple(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+        (
+            Interactive(
+                "curves-anywhere",
+                "curves",
+                "Any cell over the cycle",
+                "Choose a variant, a quantity and a cell; point at the curves for their values.",
+            ),
+            *(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+        ),
     )

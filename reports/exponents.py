@@ -1,14 +1,17 @@
 """Section 5: the exponent of the velocity profile closest to 3D, beside that of the 2D model."""
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 
+from reports import error_curves
 from reports.blocks import Figure, Paragraph, Section, Subsection
 from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
-from reports.numbers import SPACE, fixed, listed, percent, unsigned
-from reports.words import instant, spot
+from reports.numbers import SPACE, fixed, percent, unsigned
+from reports.words import spot, top_to_bottom
 
 
 def _row(data: xr.Dataset, label: str, limits: tuple[float, float] | None) -> MapRow:
@@ -54,18 +57,19 @@ def _figure(comparison: Comparison, variant: str, key: str) -> Figure:
     found = _exponents(data)
     limits = (float(found.min()), float(found.max())) if found.size else None
     states = [data.isel(time=k) for k in range(len(comparison.times))]
-    when = listed(instant(*named) for named in comparison.times)
+    when = top_to_bottom(comparison.times)
     summary = f"{_spans(data)}.{_worst_fit(comparison, data)}"
     instants = list(zip((t for _, t in comparison.times), states, strict=True))
     columns = ("rom_profile_exponent", "reference_profile_exponent", "reference_profile_error")
     return Figure(
         key=key,
-        caption=f"Variant {variant}, from top to bottom {when}: exponent γ of the profile closest to "
+        caption=f"Variant {variant}, {when}: exponent γ of the profile closest to "
         f"3D, exponent of the 2D model, and how far the closest profile still is from 3D. {summary}"
         f"{outlined(data)}",
         alt=f"Maps over x and φ of the exponent closest to 3D, of the 2D exponent and of the error of the "
-        f"closest profile, variant {variant}, at {when}. {summary}",
-        svg=heat_maps(
+        f"closest profile, variant {variant}, {when}. {summary}",
+        drawing=partial(
+            heat_maps,
             *centres(data),
             ("3D: closest γ", "2D: γ", "3D: error of the closest profile"),
             [_row(state, f"t = {t:.3f} s", limits) for t, state in instants],
@@ -93,7 +97,10 @@ def section(comparison: Comparison) -> Section:
                 Subsection(
                     f"exponents-{k}",
                     f"Variant {name}",
-                    (_figure(comparison, name, f"exponents-{k}-figure"),),
+                    (
+                        *error_curves.figures(comparison, name, f"exponents-{k}-errors"),
+                        _figure(comparison, name, f"exponents-{k}-figure"),
+                    ),
                 )
                 for k, name in enumerate(comparison.variants, start=1)
             ),

@@ -1,11 +1,11 @@
 """Small multiples of both models' curves, drawn once for HTML and PDF.
 
 The reference (3D) is near-black points, the reduced model (2D) a solid blue line, the difference orange:
-the three also differ in grey and for the colour-blind.
+the three also differ in grey and for the colour-blind. A row of panels is one Axes, in inches from the first
+panel's left edge: thirty Axes a figure would take a second to draw.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import style
@@ -14,55 +14,23 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
 from reports.drawing import STYLE, WIDTH, svg_text
-
-Array = NDArray[np.float64]
+from reports.panels import LEFT, Array, Curves, Layout, PanelRow
 
 REFERENCE_COLOUR = "#1a1a1a"
 ROM_COLOUR = "#0072b2"
 DIFFERENCE_COLOUR = "#b8480b"
+TINT = "#f4ead8"
 _MARK_COLOUR = "#9a9a9a"
-_LEFT, _RIGHT, _TOP, _BOTTOM, _GAP = 0.62, 0.26, 0.50, 0.40, 0.10
+_TOP, _BOTTOM = 0.50, 0.40
 _CURVE_HEIGHT, _CURVE_HEIGHT_ALONE, _DIFFERENCE_HEIGHT = 1.22, 0.86, 0.72
 _ROW_GAP = 0.14
+_LABEL = 0.40  # of the axis labels, left of the panels
 _MOST_MARKERS = 45
-
-
-@dataclass(frozen=True)
-class Curves:
-    """Both models in one panel, in display units; a name in the panel's corner if there is one."""
-
-    reference: Array
-    rom: Array
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class PanelRow:
-    """One row of panels.
-
-    Attributes
-    ----------
-    quantity : str
-        Axis label with unit.
-    label : str
-        Written at the row's right edge: which cell row, instant or quantity.
-    panels : tuple of Curves
-        One a column.
-    difference : str
-        Axis label of the panels for 2D − 3D below the curves; "" for none.
-    difference_factor : float
-        Unit of the differences over that of the curves.
-    """
-
-    quantity: str
-    label: str
-    panels: tuple[Curves, ...]
-    difference: str = ""
-    difference_factor: float = 1.0
+_DASHES = (0, (4, 1))
 
 
 def small_multiples(
@@ -72,6 +40,7 @@ def small_multiples(
     rows: Sequence[PanelRow],
     marks: Sequence[float] = (),
     from_zero: bool = False,
+    names: tuple[str, str] = ("3D", "2D"),
 ) -> str:
     """Draw rows × columns panels with shared axes and one legend.
 
@@ -89,6 +58,8 @@ def small_multiples(
         Abscissas of thin vertical lines (the named instants).
     from_zero : bool
         Whether the curves' axes include zero.
+    names : (str, str)
+        What the legend calls what is drawn in the reference's and in the reduced model's colour.
 
     Returns
     -------
@@ -96,6 +67,7 @@ def small_multiples(
         SVG; the same text for the same input.
     """
     with style.context(STYLE):
+        layout = Layout(len(columns), *_limits([abscissa], from_zero=False))
         heights = [
             height
             for row in rows
@@ -104,61 +76,63 @@ def small_multiples(
         total = _TOP + _BOTTOM + sum(heights) + _ROW_GAP * (len(heights) - 1)
         figure = Figure(figsize=(WIDTH, total))
         FigureCanvasSVG(figure)
-        axes = _panels(figure, heights, len(columns), total)
-        _legend(figure, bool(marks), any(row.difference for row in rows))
-        for title, axis in zip(columns, axes[0], strict=True):
-            axis.set_title(title, fontsize=7.0, pad=3.0)
+        axes = _axes(figure, heights, layout, total)
+        _legend(figure, rows, bool(marks), names)
+        for left, title in zip(layout.lefts, columns, strict=True):
+            _above(axes[0], left + layout.width / 2, title)
         lines = iter(axes)
         for row in rows:
-            _curves(next(lines), row, abscissa, marks, from_zero)
+            _curves(next(lines), layout, row, abscissa, marks, from_zero)
             if row.difference:
-                _differences(next(lines), row, abscissa, marks)
-        _abscissas(axes, abscissa)
+                _differences(next(lines), layout, row, abscissa, marks)
+        _abscissas(axes[-1], layout)
         figure.supxlabel(abscissa_label, fontsize=7.5, y=0.06 / total, va="bottom")
         return svg_text(figure)
 
 
-def _panels(figure: Figure, heights: Sequence[float], n_columns: int, total: float) -> list[list[Axes]]:
-    width = (WIDTH - _LEFT - _RIGHT - _GAP * (n_columns - 1)) / n_columns
-    grid, top = [], total - _TOP
+def _axes(figure: Figure, heights: Sequence[float], layout: Layout, total: float) -> list[Axes]:
+    """One Axes a row, from top to bottom."""
+    axes, top = [], total - _TOP
+    across = layout.lefts[-1] + layout.width
     for height in heights:
         bottom = top - height
-        grid.append(
-            [
-                figure.add_axes(
-                    (
-                        (_LEFT + column * (width + _GAP)) / WIDTH,
-                        bottom / total,
-                        width / WIDTH,
-                        height / total,
-                    )
-                )
-                for column in range(n_columns)
-            ]
-        )
-        top = bottom - _ROW_GAP
-    for axis in (axis for line in grid for axis in line):
-        axis.spines[["top", "right"]].set_visible(False)
+        axis = figure.add_axes((LEFT / WIDTH, bottom / total, across / WIDTH, height / total))
+        axis.set_xlim(0.0, across)
+        axis.yaxis.set_label_coords(-_LABEL / across, 0.5)
+        axis.spines[["left", "bottom", "top", "right"]].set_visible(False)
         axis.set_xticks([])
         axis.set_yticks([])
-    return grid
+        axes.append(axis)
+        top = bottom - _ROW_GAP
+    return axes
 
 
-def _legend(figure: Figure, marked: bool, differences: bool) -> None:
-    handles = [
-        Line2D([], [], color=REFERENCE_COLOUR, marker="o", markersize=3.0, linestyle="none", label="3D"),
-        Line2D([], [], color=ROM_COLOUR, linewidth=1.4, label="2D"),
+def _above(axis: Axes, inches: float, title: str) -> None:
+    axis.text(
+        inches, 1.05, title, transform=axis.get_xaxis_transform(), ha="center", fontsize=7.0, parse_math=False
+    )
+
+
+def _legend(figure: Figure, rows: Sequence[PanelRow], marked: bool, names: tuple[str, str]) -> None:
+    points = any(panel.rom.size for row in rows for panel in row.panels)
+    handles: list[Line2D | Patch] = [
+        Line2D([], [], color=REFERENCE_COLOUR, marker="o", markersize=3.0, linestyle="none", label=names[0])
+        if points
+        else Line2D([], [], color=REFERENCE_COLOUR, linewidth=1.1, label=names[0]),
+        Line2D([], [], color=ROM_COLOUR, linewidth=1.4, label=names[1]),
     ]
-    if differences:
+    if any(row.difference for row in rows):
         handles.append(
-            Line2D([], [], color=DIFFERENCE_COLOUR, linewidth=1.1, linestyle=(0, (4, 1)), label="2D − 3D")
+            Line2D([], [], color=DIFFERENCE_COLOUR, linewidth=1.1, linestyle=_DASHES, label="2D − 3D")
         )
     if marked:
         handles.append(Line2D([], [], color=_MARK_COLOUR, linewidth=0.8, linestyle=":", label="named times"))
+    if any(panel.calcified for row in rows for panel in row.panels):
+        handles.append(Patch(facecolor=TINT, edgecolor=_MARK_COLOUR, linewidth=0.4, label="calcified cell"))
     figure.legend(
         handles=handles,
         loc="upper left",
-        bbox_to_anchor=(_LEFT / WIDTH, 1.0),
+        bbox_to_anchor=(LEFT / WIDTH, 1.0),
         borderaxespad=0.3,
         ncols=len(handles),
         frameon=False,
@@ -167,75 +141,116 @@ def _legend(figure: Figure, marked: bool, differences: bool) -> None:
 
 
 def _curves(
-    axes: Sequence[Axes], row: PanelRow, abscissa: Array, marks: Sequence[float], from_zero: bool
+    axis: Axes,
+    layout: Layout,
+    row: PanelRow,
+    abscissa: Array,
+    marks: Sequence[float],
+    from_zero: bool,
 ) -> None:
     every = max(1, -(-abscissa.size // _MOST_MARKERS))
     limits = _limits([a for p in row.panels for a in (p.reference, p.rom)], from_zero)
-    for axis, panel in zip(axes, row.panels, strict=True):
-        _mark(axis, marks)
-        axis.plot(abscissa, panel.rom, color=ROM_COLOUR, linewidth=1.4, solid_capstyle="round")
-        axis.plot(
-            abscissa,
-            panel.reference,
-            color=REFERENCE_COLOUR,
-            linestyle="none",
-            marker="o",
-            markersize=1.7,
-            markeredgewidth=0,
-            markevery=every,
-        )
+    _ordinates(axis, layout, limits, 4)
+    for column, panel in enumerate(row.panels):
+        inches = layout.place(column, abscissa)
+        _background(axis, layout, column, panel, marks)
+        if panel.rom.size:
+            axis.plot(inches, panel.rom, color=ROM_COLOUR, linewidth=1.4, solid_capstyle="round")
+            axis.plot(
+                inches,
+                panel.reference,
+                color=REFERENCE_COLOUR,
+                linestyle="none",
+                marker="o",
+                markersize=1.7,
+                markeredgewidth=0,
+                markevery=every,
+            )
+        else:
+            axis.plot(inches, panel.reference, color=REFERENCE_COLOUR, linewidth=1.1)
+        for at, colour in panel.marked:
+            axis.plot([layout.place(column, at)] * 2, limits, color=colour, linewidth=0.9, linestyle=_DASHES)
         if panel.note:
-            axis.text(0.04, 0.05, panel.note, transform=axis.transAxes, fontsize=6.0, parse_math=False)
-    _ordinates(axes, limits, 4)
-    axes[0].set_ylabel(row.quantity, fontsize=7.5, labelpad=2.0)
-    _row_label(axes[-1], row.label)
+            _note(axis, layout, column, panel.note, on_the_right=not panel.rom.size)
+    axis.set_ylabel(row.quantity, fontsize=7.5, va="bottom")
+    _row_label(axis, row.label)
 
 
-def _differences(axes: Sequence[Axes], row: PanelRow, abscissa: Array, marks: Sequence[float]) -> None:
+def _note(axis: Axes, layout: Layout, column: int, note: str, on_the_right: bool) -> None:
+    axis.text(
+        layout.lefts[column] + (0.97 if on_the_right else 0.04) * layout.width,
+        0.05,
+        note,
+        transform=axis.get_xaxis_transform(),
+        ha="right" if on_the_right else "left",
+        fontsize=6.0,
+        parse_math=False,
+    )
+
+
+def _differences(axis: Axes, layout: Layout, row: PanelRow, abscissa: Array, marks: Sequence[float]) -> None:
     differences = [row.difference_factor * (panel.rom - panel.reference) for panel in row.panels]
-    limits = _limits([*differences, np.zeros(1)], from_zero=False)
-    for axis, values in zip(axes, differences, strict=True):
-        _mark(axis, marks)
-        axis.axhline(0.0, color="#555555", linewidth=0.5)
-        axis.plot(abscissa, values, color=DIFFERENCE_COLOUR, linewidth=1.1, linestyle=(0, (4, 1)))
-    _ordinates(axes, limits, 3)
-    axes[0].set_ylabel(row.difference, fontsize=7.0, labelpad=2.0)
-
-
-def _abscissas(axes: Sequence[Sequence[Axes]], abscissa: Array) -> None:
-    """Give all panels one horizontal axis, with numbers below the last row only."""
-    low, high = _limits([abscissa], from_zero=False)
-    for axis in (axis for line in axes for axis in line):
-        axis.set_xlim(low, high)
-    for axis in axes[-1]:
-        axis.set_xticks(_ticks(low, high, 3))
-
-
-def _ordinates(axes: Sequence[Axes], limits: tuple[float, float], most: int) -> None:
-    """Give a row of panels one vertical axis, with numbers at its first panel and lines across all."""
-    ticks = _ticks(*limits, most)
-    for axis in axes:
-        axis.set_ylim(*limits)
-        lines = [[(0.0, tick), (1.0, tick)] for tick in ticks]
-        across = LineCollection(
-            lines, colors="#d8d8d8", linewidths=0.4, zorder=0.5, transform=axis.get_yaxis_transform()
+    _ordinates(axis, layout, _limits([*differences, np.zeros(1)], from_zero=False), 3)
+    axis.add_collection(
+        LineCollection(
+            [[(left, 0.0), (left + layout.width, 0.0)] for left in layout.lefts],
+            colors="#555555",
+            linewidths=0.5,
+        ),
+        autolim=False,
+    )
+    for column, (panel, values) in enumerate(zip(row.panels, differences, strict=True)):
+        _background(axis, layout, column, panel, marks)
+        axis.plot(
+            layout.place(column, abscissa), values, color=DIFFERENCE_COLOUR, linewidth=1.1, linestyle=_DASHES
         )
-        axis.add_collection(across, autolim=False)
-    axes[0].set_yticks(ticks)
+    axis.set_ylabel(row.difference, fontsize=7.0, va="bottom")
+
+
+def _background(axis: Axes, layout: Layout, column: int, panel: Curves, marks: Sequence[float]) -> None:
+    """Draw the tint of a calcified cell, the panel's own axis, and the named instants."""
+    transform = axis.get_xaxis_transform()
+    left = layout.lefts[column]
+    if panel.calcified:
+        axis.add_patch(
+            Rectangle((left, 0), layout.width, 1, transform=transform, color=TINT, linewidth=0, zorder=0.2)
+        )
+    frame = [[(left, 1.0), (left, 0.0), (left + layout.width, 0.0)]]
+    axis.add_collection(
+        LineCollection(frame, colors="#000000", linewidths=0.5, transform=transform), autolim=False
+    )
+    places = [float(layout.place(column, mark)) for mark in marks]
+    lines = [[(place, 0.0), (place, 1.0)] for place in places]
+    axis.add_collection(
+        LineCollection(lines, colors=_MARK_COLOUR, linewidths=0.6, linestyles=":", transform=transform),
+        autolim=False,
+    )
+
+
+def _abscissas(axis: Axes, layout: Layout) -> None:
+    """Write numbers below the last row's panels."""
+    ticks = _ticks(layout.low, layout.high, 3)
+    words = [f"{tick:g}" for tick in ticks]
+    places = [float(layout.place(column, tick)) for column in range(layout.count) for tick in ticks]
+    axis.set_xticks(places, words * layout.count)
+
+
+def _ordinates(axis: Axes, layout: Layout, limits: tuple[float, float], most: int) -> None:
+    """Give a row of panels its vertical axis: numbers at its left edge and lines across every panel."""
+    ticks = _ticks(*limits, most)
+    axis.set_ylim(*limits)
+    axis.set_yticks(ticks)
+    lines = [[(left, tick), (left + layout.width, tick)] for left in layout.lefts for tick in ticks]
+    axis.add_collection(LineCollection(lines, colors="#d8d8d8", linewidths=0.4, zorder=0.5), autolim=False)
 
 
 def _ticks(low: float, high: float, most: int) -> list[float]:
     return [float(tick) for tick in MaxNLocator(most).tick_values(low, high) if low <= tick <= high]
 
 
-def _mark(axis: Axes, marks: Sequence[float]) -> None:
-    for mark in marks:
-        axis.axvline(mark, color=_MARK_COLOUR, linewidth=0.6, linestyle=":")
-
-
 def _row_label(axis: Axes, label: str) -> None:
     axis.text(
-        1.06,
+        1.008,
         0.5,
         label,
         transform=axis.transAxes,

@@ -13,8 +13,7 @@ from reports.errors import ReportError
 from reports.metrics import Metrics, read_metrics
 from reports.provenance_file import Provenance, read_provenance
 
-MAPS = ("pressure", "radius", "sector_flow_rate", "profile_exponent")
-CURVES = ("pressure", "radius", "sector_flow_rate", "section_flow_rate")
+FIELDS = ("pressure", "radius", "sector_flow_rate", "section_flow_rate", "profile_exponent")
 
 
 @dataclass(frozen=True)
@@ -35,13 +34,15 @@ class Comparison:
         Cells around the artery.
     times : tuple of (str, float)
         Named instants and their times into the cycle (s).
+    fields : xarray.Dataset
+        Both models' pressure, radius, sector and section flow rate, profile exponent, and the error of the
+        profile closest to 3D, over the cycle on all cells; which cells are calcified.
     curves : xarray.Dataset
-        Both models' pressure, radius, sector and section flow rate over the cycle at columns `i`, all φ.
+        The same at columns `i`, all φ.
     profiles : xarray.Dataset
-        Both models' axial velocity (m/s) at the named instants and cells, over y = r/R.
+        Both models' axial velocity (m/s) at the shown cells over the cycle, over y = r/R.
     maps : xarray.Dataset
-        Both models' pressure, radius, sector flow rate and profile exponent, the error of the profile closest
-        to 3D, at the named instants on all cells; which cells are calcified.
+        The fields at the named instants.
     pressure_range_over_section : xarray.Dataset
         Of both models and each variant, the largest range over φ of the pressure in a section (Pa).
     wall_varies_around : dict of str to bool
@@ -63,6 +64,7 @@ class Comparison:
     phi: tuple[float, ...]
     n_phi: int
     times: tuple[tuple[str, float], ...]
+    fields: xr.Dataset
     curves: xr.Dataset
     profiles: xr.Dataset
     maps: xr.Dataset
@@ -70,6 +72,17 @@ class Comparison:
     wall_varies_around: dict[str, bool]
     metrics: Metrics
     provenance: Provenance
+
+    @property
+    def states(self) -> tuple[int, ...]:
+        """Numbers of the states at the named instants, counted from 0."""
+        time = self.fields["time"].values
+        return tuple(int(np.abs(time - t).argmin()) for _, t in self.times)
+
+    def calcified(self, variant: str, i: int, j: int | None = None) -> bool:
+        """Whether cell (i, j), or any cell of section i, is inside the calcification."""
+        inside = self.fields["calcified"].sel(variant=variant).values[i - 1]
+        return bool(inside.any() if j is None else inside[j - 1])
 
     def rows_of(self, variant: str) -> tuple[int, ...]:
         """Rows j worth showing: one where the wall is the same all around, else all."""
@@ -103,6 +116,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
     check_consistency(directory, variants, attributes, metrics, provenance)
     columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
     states = [int(np.abs(dataset["time"].values - t).argmin()) for _, t in attributes.times]
+    fields = dataset[[*_both(FIELDS), "reference_profile_error", "calcified"]].load()
     return Comparison(
         case=attributes.case,
         title=attributes.title,
@@ -115,10 +129,11 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
         phi=tuple(dataset["phi"].values[rows].tolist()),
         n_phi=dataset.sizes["phi"],
         times=attributes.times,
-        curves=dataset[_both(CURVES)].isel(x=columns).load(),
-        profiles=dataset[list(PROFILES)].isel(time=states, x=columns, phi=rows).load(),
-        maps=dataset[[*_both(MAPS), "reference_profile_error", "calcified"]].isel(time=states).load(),
-        pressure_range_over_section=_pressure_range(dataset[_both(("pressure",))]),
+        fields=fields,
+        curves=fields.isel(x=columns),
+        profiles=dataset[list(PROFILES)].isel(x=columns, phi=rows).load(),
+        maps=fields.isel(time=states),
+        pressure_range_over_section=_pressure_range(fields[_both(("pressure",))]),
         wall_varies_around=_varies_around(dataset["wall_stiffness"].load()),
         metrics=metrics,
         provenance=provenance,
@@ -130,8 +145,7 @@ def _both(names: Sequence[str]) -> list[str]:
 
 
 def _pressure_range(pressure: xr.Dataset) -> xr.Dataset:
-    loaded = pressure.load()
-    return (loaded.max("phi") - loaded.min("phi")).max(("time", "x"))
+    return (pressure.max("phi") - pressure.min("phi")).max(("time", "x"))
 
 
 def _varies_around(stiffness: xr.DataArray) -> dict[str, bool]:

@@ -10,7 +10,8 @@ from reports.tabular import comma_separated
 
 Array = NDArray[np.float64]
 
-_DIGITS = 6  # thousands of cells: more would double the report
+CELL_COLUMNS = ("t_s", "i", "j", "x_m", "phi_rad")
+DIGITS = 6  # thousands of cells: more would double the report
 WITHOUT_INSTANT = "The case names no instant to show maps at."
 
 
@@ -25,17 +26,18 @@ def centres(data: xr.Dataset) -> tuple[Array, Array]:
 
 
 def outlined(data: xr.Dataset) -> str:
-    """Say what the dashed line of a map is; "" where there is none."""
-    return " Dashed: the calcified cells." if bool(data["calcified"].any()) else ""
+    """Say what the frame in a map is; "" where there is none."""
+    return " Framed: the calcified cells." if bool(data["calcified"].any()) else ""
 
 
 def cells_csv(instants: Sequence[tuple[float, xr.Dataset]], names: Sequence[str]) -> str:
     """All cells at each of the (time, fields), SI."""
-    rows = (row for t_s, data in instants for row in _rows(t_s, data, names))
-    return comma_separated(("t_s", "i", "j", "x_m", "phi_rad", *names), rows, _DIGITS)
+    rows = (row for t_s, data in instants for row in cell_rows(t_s, data, names))
+    return comma_separated((*CELL_COLUMNS, *names), rows, DIGITS)
 
 
-def _rows(t_s: float, data: xr.Dataset, names: Sequence[str]) -> Iterator[tuple[object, ...]]:
+def cell_rows(t_s: float, data: xr.Dataset, names: Sequence[str]) -> Iterator[tuple[object, ...]]:
+    """Rows of all cells at one time: the columns of a cell, then the variables."""
     x, phi = np.meshgrid(data["x"].values, data["phi"].values, indexing="ij")
     i, j = np.indices(x.shape) + 1
     columns = [values.ravel().tolist() for values in (i, j, x, phi, *(field(data, name) for name in names))]

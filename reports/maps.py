@@ -1,14 +1,17 @@
 """Section 6: maps of the fields over the unrolled lumen, (x, φ), in both models."""
 
+from collections.abc import Sequence
+from functools import partial
+
 import numpy as np
 import xarray as xr
 
 from cases.fields import FIELDS, Field
-from reports.blocks import Figure, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
-from reports.numbers import DIFFERENCE_UNITS, listed, signed, with_unit
+from reports.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
 from reports.words import instant, spot
 
 _MAPPED = ("radius", "sector_flow_rate", "profile_exponent", "pressure")
@@ -52,6 +55,25 @@ def _farthest(data: xr.Dataset, quantity: Field) -> str:
     return f"{quantity.label} {value} ({spot(int(i) + 1, int(j) + 1, None)})"
 
 
+def _inside(data: xr.Dataset, quantities: Sequence[Field]) -> str:
+    """Compare the size of the differences in calcified cells and elsewhere; "" where all cells are alike."""
+    calcified = data["calcified"].values > 0
+    if not calcified.any() or calcified.all():
+        return ""
+    said = []
+    for quantity in quantities:
+        unit, factor = DIFFERENCE_UNITS[quantity.unit]
+        sizes = factor * np.abs(_difference(data, quantity.name))
+        if np.isfinite(sizes).all():
+            within, without = (
+                with_unit(rounded(float(sizes[cells].mean()), 2), unit) for cells in (calcified, ~calcified)
+            )
+            said.append(f"{quantity.label} {within} and {without}")
+    return (
+        f" Mean size of the difference in calcified cells and elsewhere: {'; '.join(said)}." if said else ""
+    )
+
+
 def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figure:
     data = comparison.maps.sel(variant=variant).isel(time=state)
     quantities = [FIELDS[name] for name in _MAPPED]
@@ -61,10 +83,12 @@ def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figur
     return Figure(
         key=key,
         caption=f"Variant {variant}, {when}: {what} over the unrolled lumen; 3D and 2D in one scale, 2D − 3D "
-        f"in a scale centred on zero. Farthest apart: {farthest}.{outlined(data)}",
+        f"in a scale centred on zero. What to see: where the right column is pale, 2D is right. "
+        f"Farthest apart: {farthest}.{_inside(data, quantities)}{outlined(data)}",
         alt=f"Maps over x and φ of {what} in 3D, in 2D and their difference, variant {variant}, {when}. "
         f"Farthest apart: {farthest}.",
-        svg=heat_maps(
+        drawing=partial(
+            heat_maps,
             *centres(data),
             ("3D", "2D", "2D − 3D"),
             [_row(data, quantity) for quantity in quantities],
@@ -86,8 +110,15 @@ def section(comparison: Comparison) -> Section:
         Subsection(f"maps-{k}", f"Variant {name}", (_figure(comparison, name, 0, f"maps-{k}-figure"),))
         for k, name in enumerate(comparison.variants, start=1)
     )
-    others = [instant(*named) for named in comparison.times[1:]]
-    note = f" The fields at {listed(others)} are in comparison.nc." if others else ""
-    return Section(
-        "maps", title, (Paragraph(f"All maps are at {instant(*comparison.times[0])}.{note}"), *figures)
+    slider = Interactive(
+        "maps-anytime",
+        "maps",
+        "The maps at any time",
+        "Choose a variant and a quantity, move the time slider or let it play; point at a map for its "
+        "values.",
     )
+    opening = Paragraph(
+        f"The still maps are at {instant(*comparison.times[0])}; comparison.nc holds all "
+        f"{comparison.fields.sizes['time']} states."
+    )
+    return Section("maps", title, (opening, slider, *figures))

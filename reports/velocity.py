@@ -2,19 +2,21 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cases.fields import FIELDS
-from reports.blocks import Figure, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.cells import chunks
-from reports.figures import Curves, PanelRow, small_multiples
+from reports.figures import small_multiples
 from reports.load import Comparison
 from reports.metrics import Metrics
 from reports.numbers import SPACE, fixed, listed, signed, with_unit
+from reports.panels import Curves, PanelRow
 from reports.tabular import comma_separated
-from reports.words import column_heading, instant, row_heading, spot
+from reports.words import column_heading, instant, row_heading, spot, top_to_bottom
 
 _FIELD = FIELDS["axial_velocity"]
 
@@ -31,7 +33,9 @@ class _Line:
 
 
 def _line(comparison: Comparison, variant: str, state: int, j: int, label: str) -> _Line:
-    data = comparison.profiles.sel(variant=variant).isel(time=state, phi=comparison.j.index(j))
+    data = comparison.profiles.sel(variant=variant).isel(
+        time=comparison.states[state], phi=comparison.j.index(j)
+    )
     reference, rom = (data[f"{m}_axial_velocity"].values.astype(float) for m in ("reference", "rom"))
     return _Line(label, comparison.times[state][1], j, reference, rom)
 
@@ -51,6 +55,7 @@ def _panel_row(comparison: Comparison, variant: str, line: _Line, columns: Seque
                 factor * line.reference[k],
                 factor * line.rom[k],
                 _exponents(comparison.metrics, variant, i, line),
+                comparison.calcified(variant, i, line.j),
             )
             for i in columns
             for k in (comparison.i.index(i),)
@@ -85,12 +90,13 @@ def _figures(
                 key=f"{key}-{columns[0]}",
                 caption=f"Variant {variant}, {when}: axial velocity along the ray from the axis "
                 f"(r/R{SPACE}={SPACE}0) to the wall (r/R{SPACE}={SPACE}1) at {cells}; 3D as points, 2D as a "
-                f"line. In these panels {farthest}. "
-                "γ is the exponent of the 2D model's profile and of the profile closest to 3D: 2 is a "
-                "parabola, more is flatter.",
+                f"line. What to see: where the line runs below the points, 2D is too slow. In these panels "
+                f"{farthest}. γ is the exponent of the 2D model's profile and of the profile closest to 3D: "
+                "2 is a parabola, more is flatter.",
                 alt=f"Velocity profiles of 3D and 2D, variant {variant}, {when}, a panel for each of "
                 f"{cells}; {farthest}.",
-                svg=small_multiples(
+                drawing=partial(
+                    small_multiples,
                     comparison.profiles["y"].values.astype(float),
                     "r/R (–)",
                     [column_heading(comparison, i) for i in columns],
@@ -122,7 +128,7 @@ def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:
         lines = [
             _line(comparison, variant, k, rows[0], f"t = {comparison.times[k][1]:.3f} s") for k in states
         ]
-        when = "from top to bottom " + listed(instant(name, t) for name, t in comparison.times)
+        when = top_to_bottom(comparison.times)
         return Subsection(key, f"Variant {variant}", _figures(comparison, variant, f"{key}-all", when, lines))
     figures: tuple[Figure, ...] = ()
     for k in states:
@@ -139,5 +145,14 @@ def section(comparison: Comparison) -> Section:
     return Section(
         "profiles",
         title,
-        tuple(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+        (
+            Interactive(
+                "profiles-anytime",
+                "profiles",
+                "The profile at any time",
+                "Choose a variant and a cell, move the time slider or let it play; point at the curves for "
+                "their values.",
+            ),
+            *(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+        ),
     )

@@ -2,11 +2,11 @@
 
 from collections import Counter
 
-from reports import trust
-from reports.blocks import Block, Bullets, Column, Paragraph, Section, Table, Warnings
+from reports import pooled, trust
+from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Section, Table, Warnings
 from reports.load import Comparison
 from reports.metrics import Row, Status
-from reports.numbers import ABSENT, counted, listed, percent, rounded, unsigned
+from reports.numbers import ABSENT, counted, listed, rounded
 from reports.words import limit, measure, place, quantity_words, statistic_words
 
 _ORDER = {"FAIL": 0, "MISSING": 1, "OK": 2}
@@ -55,6 +55,36 @@ def worst(comparison: Comparison) -> str:
     )
 
 
+def by_variant(comparison: Comparison) -> tuple[str, ...]:
+    """Say for each variant whether its bands hold, and by how much the furthest is missed or held."""
+    said = []
+    for name in comparison.variants:
+        bands = [row for row in comparison.metrics.bands() if row.variant == name]
+        judged = [row for row in bands if row.error is not None]
+        failed = [row for row in worst_first(tuple(judged)) if row.status == "FAIL"]
+        missing = len(bands) - len(judged)
+        if not bands:
+            said.append(f"{name}: no band was declared, so nothing is judged.")
+            continue
+        if failed:
+            text = "the 2D model is not within what was declared: " + "; ".join(map(_against_limit, failed))
+        elif judged:
+            nearest = max(judged, key=lambda row: row.ratio)
+            text = f"the 2D model is within every judged limit; nearest is {_against_limit(nearest)}"
+        else:
+            text = "nothing can be said"
+        unjudged = f"; {counted(missing, 'band')} could not be judged" if missing else ""
+        said.append(f"{name}: {text}{unjudged}.")
+    return tuple(said)
+
+
+def _against_limit(row: Row) -> str:
+    return (
+        f"{statistic_words(row.statistic)} of {quantity_words(row.quantity)} {_error_text(row)}, "
+        f"limit {limit(row)}"
+    )
+
+
 def unknowns(comparison: Comparison) -> tuple[str, ...]:
     """Say what this comparison cannot tell: bands without a figure, mesh convergence, too few cycles."""
     missing = [r for r in comparison.metrics.bands() if r.status == "MISSING"]
@@ -68,6 +98,13 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
         "measured here, so a difference smaller than that error says nothing about the 2D model."
     )
     variants = comparison.provenance.variants
+    uncovered = [name for name in comparison.variants if variants[name].reference.coverage is None]
+    if uncovered:
+        said.append(f"How much of the cycle the 3D states of {listed(uncovered)} cover was not recorded.")
+    said.append("Of 3D one cycle is compared; whether 3D had become periodic by then is not measured here.")
+    unrated = [name for name in comparison.variants if variants[name].rom.cycle_change is None]
+    if unrated:
+        said.append(f"Whether the 2D model of {listed(unrated)} had become periodic was not recorded.")
     single = [name for name in comparison.variants if variants[name].rom.cycles == 1]
     if single:
         said.append(
@@ -128,48 +165,6 @@ def _band_table(comparison: Comparison) -> Table:
     )
 
 
-def _pooled_table(comparison: Comparison) -> Table | None:
-    found: dict[tuple[str, str], dict[str, Row]] = {}
-    for statistic in ("bias", "scatter", "rms_error", "max_error"):
-        for row in comparison.metrics.pooled(statistic):
-            found.setdefault((row.variant, row.quantity), {})[statistic] = row
-    order = {name: k for k, name in enumerate(comparison.variants)}
-    rows = []
-    for (variant, quantity), by in sorted(found.items(), key=lambda kv: order.get(kv[0][0], len(order))):
-        figures = [by.get(name) for name in ("bias", "scatter", "rms_error", "max_error")]
-        largest = figures[3]
-        rows.append(
-            (
-                variant,
-                quantity_words(quantity),
-                percent(figures[0].error if figures[0] else None),
-                unsigned(percent(figures[1].error if figures[1] else None)),
-                unsigned(percent(figures[2].error if figures[2] else None)),
-                percent(largest.error if largest else None),
-                place(largest) if largest else ABSENT,
-            )
-        )
-    if not rows:
-        return None
-    return Table(
-        "pooled",
-        "Errors over all cells and all states of the cycle. A bias near the RMS error means that the 2D "
-        "model is off by the same share everywhere; a scatter near it, that it is off differently from place "
-        "to place.",
-        (
-            Column("variant"),
-            Column("quantity", "prose"),
-            Column("bias", "number"),
-            Column("scatter", "number"),
-            Column("RMS error", "number"),
-            Column("largest error", "number"),
-            Column("found at"),
-        ),
-        tuple(rows),
-        rule_by=0,
-    )
-
-
 def section(comparison: Comparison) -> Section:
     """Build the section."""
     blocks: list[Block] = [Paragraph(headline(comparison), lead=True)]
@@ -178,12 +173,21 @@ def section(comparison: Comparison) -> Section:
         blocks.append(Warnings(warnings))
     sentence = worst(comparison)
     if sentence:
-        blocks += [Paragraph(sentence), _band_table(comparison)]
-    elif comparison.metrics.bands():
-        blocks.append(_band_table(comparison))
-    blocks.append(trust.table(comparison))
-    pooled = _pooled_table(comparison)
-    if pooled:
-        blocks.append(pooled)
+        blocks.append(Paragraph(sentence))
+    if comparison.metrics.bands():
+        blocks += [Bullets(by_variant(comparison)), _band_table(comparison)]
     blocks += [Paragraph("What this comparison does not tell:"), Bullets(unknowns(comparison))]
+    blocks.append(trust.table(comparison))
+    errors = pooled.table(comparison)
+    if errors:
+        blocks.append(errors)
+    blocks.append(
+        Interactive(
+            "metrics-all",
+            "metrics",
+            "Every figure of this comparison",
+            "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
+            "click on a heading sorts.",
+        )
+    )
     return Section("verdict", "Verdict", tuple(blocks))

@@ -1,11 +1,12 @@
 """How quantities, statistics and cells are named in a report."""
 
 import math
+from collections.abc import Sequence
 
 from cases.fields import FIELDS, Field
 from reports.load import Comparison
 from reports.metrics import DIFFERENCE_STATISTICS, Row
-from reports.numbers import ABSENT, SPACE, fixed, percent, unsigned, with_unit
+from reports.numbers import ABSENT, SPACE, fixed, listed, percent, unsigned, with_unit
 
 STATISTICS = {
     "value": "value",
@@ -90,3 +91,9 @@ def row_heading(comparison: Comparison, j: int) -> str:
 def instant(name: str, t_s: float) -> str:
     """E.g. "systole (0.090 s)"."""
     return f"{name} ({t_s:.3f}{SPACE}s)"
+
+
+def top_to_bottom(times: Sequence[tuple[str, float]]) -> str:
+    """Say what instants the rows of a figure are."""
+    words = listed(instant(*named) for named in times)
+    return words if len(times) == 1 else f"from top to bottom {words}"

@@ -1,36 +1,86 @@
-"""The report as one self-contained HTML file: no script, no network."""
+"""The report as one self-contained HTML file: nothing is loaded from elsewhere."""
 
 import base64
+import gzip
+import hashlib
 import re
+from collections.abc import Mapping
 from functools import cache
+from importlib.resources import files
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
 
-from reports.blocks import Report
+from reports.blocks import Figure, Report
+
+_LARGE = 100_000  # bytes
+_SCRIPTS = ("data", "controls", "plots", "curves", "profiles", "maps", "artery", "tables", "metrics", "start")
 
 
-def render_html(report: Report) -> str:
-    """Return the HTML text of `report`; texts are escaped, figures and their data embedded."""
-    return _environment().get_template("report.html").render(report=report)
+def render_html(report: Report, drawings: Mapping[str, str]) -> str:
+    """Return the HTML text of `report`; texts are escaped, figures (SVG by key) and their data embedded."""
+    scripts = (_library(), _own_scripts())
+    return (
+        environment()
+        .get_template("report.html")
+        .render(
+            report=report,
+            drawings=drawings,
+            scripts=[Markup(script) for script in scripts],  # noqa: S704 (the package's own and the library)
+            checksums=[_checksum(script) for script in scripts],
+            data=Markup(report.data.replace("<", "\\u003c")),  # noqa: S704 (JSON that ends no script)
+        )
+    )
 
 
 @cache
-def _environment() -> Environment:
-    environment = Environment(
+def environment() -> Environment:
+    """Templates of this package; every text that is filled in is escaped."""
+    made = Environment(
         loader=PackageLoader("reports.html", "."),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["data_uri"] = _data_uri
-    environment.filters["kind"] = lambda block: type(block).__name__
-    environment.filters["svg_size"] = _svg_size
-    return environment
+    made.filters["data_uri"] = _data_uri
+    made.filters["data_link"] = _data_link
+    made.filters["kind"] = lambda block: type(block).__name__
+    made.filters["svg_size"] = _svg_size
+    return made
+
+
+@cache
+def _library() -> str:
+    """Return Plotly's script, from its Python package."""
+    return files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
+
+
+@cache
+def _own_scripts() -> str:
+    folder = files("reports.html").joinpath("scripts")
+    texts = [folder.joinpath(f"{name}.js").read_text(encoding="utf-8") for name in _SCRIPTS]
+    return "\n".join(['"use strict";', "{", *texts, "}"])
+
+
+def _checksum(script: str) -> str:
+    """Return what the page's security policy allows the script by."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"
 
 
 def _data_uri(text: str, mime: str) -> str:
     return f"data:{mime};base64,{base64.b64encode(text.encode()).decode()}"
+
+
+def _data_link(figure: Figure) -> Markup:
+    """Link to the numbers behind a figure; many are compressed, or they would be most of the page."""
+    content, name, mime, words = figure.csv.encode(), f"{figure.key}.csv", "text/csv;charset=utf-8", "CSV"
+    if len(content) > _LARGE:
+        content = gzip.compress(content, compresslevel=4, mtime=0)
+        name, mime, words = f"{name}.gz", "application/gzip", "CSV, gzip"
+    return Markup('<a download="{}" href="data:{};base64,{}">Data ({})</a>').format(
+        name, mime, base64.b64encode(content).decode(), words
+    )
 
 
 def _svg_size(svg: str) -> tuple[float, float]:

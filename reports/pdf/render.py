@@ -3,6 +3,7 @@
 import json
 import shutil
 import tempfile
+from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from datetime import UTC, datetime
 from functools import cache
@@ -22,8 +23,15 @@ _FALLBACK_FONT = Path(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSansMon
 _TEMPLATE = Path(__file__).with_name("report.typ")
 
 
-def render_pdf(report: Report) -> bytes:
+def render_pdf(report: Report, drawings: Mapping[str, str]) -> bytes:
     """Return the PDF of `report`, dated with the comparison's own time stamp.
+
+    Parameters
+    ----------
+    report : Report
+        The content.
+    drawings : mapping of str to str
+        SVG of each figure, by its key.
 
     Raises
     ------
@@ -41,6 +49,8 @@ def render_pdf(report: Report) -> bytes:
     with tempfile.TemporaryDirectory(prefix="report-") as folder:
         root = Path(folder)
         shutil.copyfile(_TEMPLATE, root / _TEMPLATE.name)
+        for key, svg in drawings.items():
+            (root / f"{key}.svg").write_text(svg, encoding="utf-8")
         (root / "report.json").write_text(json.dumps(_plain(report, root)), encoding="utf-8")
         try:
             pdf = typst.compile(
@@ -71,17 +81,19 @@ def displayable(text: str) -> str:
 
 def _plain(value: Any, root: Path) -> Any:
     """Content as JSON: each block names its kind; drawings and data become files beside the template."""
+    if isinstance(value, frozenset):
+        return sorted(value)
     if isinstance(value, tuple):
         return [_plain(item, root) for item in value]
     if isinstance(value, str):
         return displayable(value)
     if not is_dataclass(value):
         return value
-    plain = {field.name: _plain(getattr(value, field.name), root) for field in fields(value)}
+    names = [field.name for field in fields(value) if field.name not in ("drawing", "data")]
+    plain = {name: _plain(getattr(value, name), root) for name in names}
     plain["kind"] = type(value).__name__ if "kind" not in plain else plain["kind"]
     if isinstance(value, Table):
         plain["groups"], plain["rules"] = value.groups(), value.rules()
     if isinstance(value, Figure):
-        for suffix in ("svg", "csv"):
-            (root / f"{value.key}.{suffix}").write_text(plain.pop(suffix), encoding="utf-8")
+        (root / f"{value.key}.csv").write_text(plain.pop("csv"), encoding="utf-8")
     return plain

@@ -1,6 +1,7 @@
 import io
 import re
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +16,12 @@ from reports import write_reports
 def pdf_text() -> Callable[[Path], str]:
     """Text of a PDF with single spaces between words."""
 
-    def read(path: Path) -> str:
-        pages = pypdf.PdfReader(io.BytesIO(path.read_bytes())).pages
+    @cache
+    def text(content: bytes) -> str:
+        pages = pypdf.PdfReader(io.BytesIO(content)).pages
         return re.sub(r"\s+", " ", " ".join(page.extract_text() for page in pages))
 
-    return read
+    return lambda path: text(path.read_bytes())
 
 
 @pytest.fixture(scope="session")

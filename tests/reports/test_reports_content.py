@@ -10,7 +10,7 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports import change, cycle, provenance, velocity, verdict
+from reports import assumptions, change, cycle, provenance, velocity, verdict
 from reports.blocks import Bullets, Figure, Paragraph, Section, Subsection, Table, Warnings
 from reports.load import load
 
@@ -258,7 +258,7 @@ def test_without_a_baseline_no_change_is_claimed(tmp_path: Path, small: syntheti
 
 
 def test_a_wall_that_is_the_same_all_around_shows_one_row_and_says_so(curves: Section) -> None:
-    none, local = curves.blocks[0], curves.blocks[2]
+    none, local = curves.blocks[1], curves.blocks[3]
     assert isinstance(none, Subsection)
     assert isinstance(local, Subsection)
     assert "one row stands for all: j = 1" in none.blocks[0].text  # type: ignore[union-attr]
@@ -321,3 +321,81 @@ def test_settings_are_named_in_words_with_their_unit(tmp_path: Path, small: synt
     table = _table(provenance.section(load(tmp_path)), "rom")
     assert ("viscosity (Pa s)", "0.0035") in table.rows
     assert ("time step (s)", "0.001") in table.rows
+
+
+def _extra(variant: str, **what: Any) -> dict[str, Any]:
+    blank = dict.fromkeys(("i", "j", "t_s", "rom", "reference", "error", "band"))
+    return {"case": "synthetic", "variant": variant, "unit": "1", "status": "", **blank, **what}
+
+
+def test_rows_that_the_report_does_not_know_are_shown(tmp_path: Path, small: synthetic.Setup) -> None:
+    rows = synthetic.write(tmp_path, small)
+    rows += [
+        _extra("local", quantity="wall_shear_stress", statistic="cycle", unit="Pa", rom=1.5, reference=1.2),
+        _extra(
+            "local", quantity="wall_shear_stress", statistic="largest", unit="Pa", reference=4.5, i=3, j=2
+        ),
+        _extra("local", quantity="radius", statistic="waveform_correlation", error=0.031),
+        _extra("local", quantity="radius", statistic="rms_difference", unit="m", error=5.8e-5),
+    ]
+    (tmp_path / "metrics.json").write_text(json.dumps(rows))
+    comparison = load(tmp_path)
+    cycle_rows = _table(change.section(comparison), "cycle-quantities").rows
+    assert [row[3:5] for row in cycle_rows if row[0] == "wall shear stress"] == [("1.200", "1.500")]
+    found = {row[1:3]: row[3:] for row in _table(assumptions.checks_section(comparison), "further").rows}
+    said = {key: tuple(text.replace("\u00a0", " ") for text in texts) for key, texts in found.items()}
+    assert said["wall shear stress", "largest"] == ("4.500 Pa", "—", "—", "i = 3, j = 2")
+    assert said["lumen radius", "waveform correlation"] == ("—", "—", "+3.10 %", "—")
+    assert said["lumen radius", "RMS difference"] == ("—", "—", "+58.0 μm", "—")
+
+
+def test_quantities_whose_figures_agree_share_a_line(tmp_path: Path, small: synthetic.Setup) -> None:
+    rows = synthetic.write(tmp_path, small)
+    for row in rows:
+        if row["quantity"] == "sector_flow_rate" and row["statistic"] in (
+            "bias",
+            "scatter",
+            "rms_error",
+            "max_error",
+        ):
+            same = _find(rows, quantity="section_flow_rate", statistic=row["statistic"])
+            row["error"] = same["error"]
+    (tmp_path / "metrics.json").write_text(json.dumps(rows))
+    names = [row[1] for row in _table(verdict.section(load(tmp_path)), "pooled").rows]
+    assert "flow rate through one sector; flow rate through the section" in names
+
+
+def test_cells_inside_the_calcification_are_marked(finished: tuple[Path, Rows]) -> None:
+    comparison = load(finished[0])
+    table = _table(change.section(comparison), "change-radius")
+    assert "Shaded: inside the calcification." in table.caption
+    for number, row in enumerate(table.rows):
+        for column, heading in enumerate(table.columns):
+            if heading.kind == "number" and heading.group:
+                i = int(heading.group.removeprefix("i = "))
+                inside = comparison.calcified(row[0], i, int(row[2]))
+                assert table.marks(number, column) == inside
+    assert table.marked
+
+
+@pytest.mark.parametrize(("states", "shown"), [(11, "3"), (81, "3"), (401, "3.1")])
+def test_a_lag_has_no_more_digits_than_states_carry(
+    tmp_path: Path, small: synthetic.Setup, states: int, shown: str
+) -> None:
+    setup = dataclasses.replace(small, n_time=states, n_x=6, n_phi=4)
+    rows = synthetic.write(tmp_path, setup)
+    rows.append(_extra("local", quantity="phase_lag", statistic="cycle", unit="s", rom=3.12345e-3))
+    (tmp_path / "metrics.json").write_text(json.dumps(rows))
+    table = _table(change.section(load(tmp_path)), "cycle-quantities")
+    assert [row[4] for row in table.rows if row[0].startswith("lag")] == [shown]
+    assert "a lag is known no better" in table.caption
+
+
+def test_each_variant_has_its_own_verdict(finished: tuple[Path, Rows]) -> None:
+    directory, rows = finished
+    said = verdict.by_variant(load(directory))
+    assert [text.partition(":")[0] for text in said] == list(synthetic.VARIANTS)
+    for variant, text in zip(synthetic.VARIANTS, said, strict=True):
+        status = {row["status"] for row in rows if row["status"] and row["variant"] == variant}
+        assert ("is not within what was declared" in text) == ("FAIL" in status)
+        assert ("could not be judged" in text) == ("MISSING" in status)

@@ -43,7 +43,8 @@ def test_what_is_read_is_what_was_written(tmp_path: Path) -> None:
     states = synthetic.states(setup, arrays)
     at = (2, states[1], setup.i[3] - 1, setup.j[2] - 1)
     np.testing.assert_array_equal(
-        found.profiles["reference_axial_velocity"].values[2, 1, 3, 2], arrays["reference_axial_velocity"][at]
+        found.profiles["reference_axial_velocity"].values[2, found.states[1], 3, 2],
+        arrays["reference_axial_velocity"][at],
     )
     assert found.wall_varies_around == {"none": False, "axisymmetric": False, "local": True}
     assert found.rows_of("none") == setup.j[:1]

@@ -24,7 +24,7 @@ def _figures(section: Section) -> list[Figure]:
         for part in section.blocks
         if isinstance(part, Subsection)
         for block in part.blocks
-        if isinstance(block, Figure)
+        if isinstance(block, Figure) and block.key.endswith("-figure")
     ]
 
 
@@ -63,11 +63,11 @@ def test_a_caption_names_where_the_maps_are_farthest_apart(finished: tuple[Path,
     i, j = np.unravel_index(np.abs(difference).argmax(), difference.shape)
     said = figure.caption.replace("\u00a0", " ")
     assert f"pressure {difference[i, j]:+.0f} Pa (i = {i + 1}, j = {j + 1})".replace("-", "−") in said
-    assert "Dashed: the calcified cells." in said
+    assert "Framed: the calcified cells." in said
 
 
 def test_without_calcification_nothing_is_outlined(finished: tuple[Path, Rows]) -> None:
-    assert "Dashed" not in _figures(maps.section(load(finished[0])))[0].caption
+    assert "Framed" not in _figures(maps.section(load(finished[0])))[0].caption
 
 
 def test_the_worst_fit_is_named(finished: tuple[Path, Rows]) -> None:

@@ -1,0 +1,56 @@
+"""Figures of the whole artery that no other table of the report has a place for."""
+
+from reports.blocks import Column, Table
+from reports.load import Comparison
+from reports.metrics import DIFFERENCE_STATISTICS, Row
+from reports.numbers import ABSENT, DIFFERENCE_UNITS, percent, rounded, signed, with_unit
+from reports.words import STATISTICS, field_of, place, quantity_words, statistic_words
+
+_BY_CELL_AND_STATE = ("plane_integral", "prescribed_inflow")
+
+
+def table(comparison: Comparison, placed: frozenset[str]) -> Table | None:
+    """Return the rows of other statistics, and the largest values of quantities that are not `placed`."""
+    rows = tuple(
+        _line(row)
+        for row in comparison.metrics.rows
+        if not row.status
+        and (row.statistic not in STATISTICS or row.statistic in DIFFERENCE_STATISTICS)
+        and row.statistic not in _BY_CELL_AND_STATE
+        and (row.statistic != "largest" or row.quantity not in placed)
+        and (row.i is None or row.statistic.startswith(("largest", "max_")))
+    )
+    if not rows:
+        return None
+    return Table(
+        "further",
+        "Further figures of the whole artery and cycle.",
+        (
+            Column("variant"),
+            Column("quantity", "prose"),
+            Column("statistic", "prose"),
+            Column("3D", "number"),
+            Column("2D", "number"),
+            Column("error", "number"),
+            Column("at"),
+        ),
+        rows,
+        rule_by=0,
+    )
+
+
+def _line(row: Row) -> tuple[str, ...]:
+    field = field_of(row.quantity, row.unit)
+    shown = field if row.unit == field.unit else field_of("", row.unit)  # a ratio has no unit
+
+    def value(number: float | None) -> str:
+        text = rounded(None if number is None else number * shown.display_factor)
+        return with_unit(text, shown.display_unit)
+
+    if row.statistic in DIFFERENCE_STATISTICS and row.error is not None:
+        unit, factor = DIFFERENCE_UNITS.get(row.unit, (row.unit, 1.0))
+        error = with_unit(signed(factor * row.error), unit)
+    else:
+        error = percent(row.error)
+    texts = (quantity_words(row.quantity), statistic_words(row.statistic), value(row.reference))
+    return (row.variant, *texts, value(row.rom), error, place(row) or ABSENT)

@@ -1,0 +1,79 @@
+"""One page for several comparisons, the worst first, with links to their reports."""
+
+import os
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import quote
+
+from reports.blocks import Report
+from reports.html.render import environment
+from reports.load import Comparison
+from reports.verdict import by_variant, headline
+
+_RANKS = {"FAIL": 0, "MISSING": 1, "OK": 2}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One comparison of the gallery.
+
+    Attributes
+    ----------
+    directory : Path
+        Where its reports are.
+    title, identity, headline : str
+        As in its report.
+    sentences : tuple of str
+        The verdict on each variant.
+    counts : tuple of (str, int)
+        How many bands fail, are missing and hold; those that occur.
+    rank : tuple of float
+        The worst has the least.
+    picture, alt : str
+        SVG of the artery, and the words that stand for it; "" for none.
+    """
+
+    directory: Path
+    title: str
+    identity: str
+    headline: str
+    sentences: tuple[str, ...]
+    counts: tuple[tuple[str, int], ...]
+    rank: tuple[float, float]
+    picture: str
+    alt: str
+
+
+def entry(directory: Path, comparison: Comparison, report: Report, drawings: dict[str, str]) -> Entry:
+    """Sum up one comparison: bands that fail come first, by how far, then missing ones, then held ones."""
+    bands = comparison.metrics.bands()
+    counts = Counter(str(row.status) for row in bands)
+    worst = min((_RANKS[row.status] for row in bands), default=len(_RANKS))
+    furthest = max((row.ratio for row in bands if row.error is not None), default=0.0)
+    still = next((figure for figure in report.figures() if figure.key == "artery-still"), None)
+    return Entry(
+        directory,
+        report.title,
+        report.identity,
+        headline(comparison),
+        by_variant(comparison),
+        tuple((status, counts[status]) for status in _RANKS if counts[status]),
+        (worst, -furthest),
+        drawings[still.key] if still else "",
+        still.alt if still else "",
+    )
+
+
+def gallery_place(directories: list[Path]) -> Path:
+    """Return where the page goes: gallery.html in the nearest folder that holds all directories."""
+    parents = [str(directory.resolve().parent) for directory in directories]
+    return Path(os.path.commonpath(parents)) / "gallery.html"
+
+
+def render_gallery(entries: list[Entry], place: Path) -> str:
+    """Return the HTML of the page that will be at `place`; its links are relative to there."""
+    ordered = sorted(entries, key=lambda e: (e.rank, e.title))
+    links = [quote(os.path.relpath(e.directory.resolve(), place.parent.resolve())) for e in ordered]
+    template = environment().get_template("gallery.html")
+    return template.render(entries=list(zip(ordered, links, strict=True)))
