@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from solver.errors import ModelError, NotConverged, RunFailure
 from solver.model import Model, State
 from solver.steady import steady_state
-from solver.stepper import Stepper
+from solver.stepping import AnyStepper, stepper_of
 
 SHORTEST_SHARE = 1e-6  # of the largest Δt: below it error control gives up
 SLOWEST_GROWTH, FASTEST_GROWTH = 0.2, 2.0  # of Δt from one step to the next
@@ -115,7 +115,7 @@ def snapshots(
     times = checked_times(output_times, time_step)
     start = initial.copy() if initial else steady_state(model, float(model.inlet.signal(times[0])))
     start.time = float(times[0])
-    stepper = Stepper(model, start)
+    stepper = stepper_of(model, start)
     wanted = time_step if first_step is None else first_step
     yield Snapshot(stepper.state(), 0.0, 0, 0, 0.0, wanted)
     for begin, end in pairwise(times.tolist()):
@@ -130,7 +130,7 @@ def snapshots(
 
 
 def _adaptive(
-    stepper: Stepper, begin: float, end: float, largest: float, wanted: float, tolerance: float
+    stepper: AnyStepper, begin: float, end: float, largest: float, wanted: float, tolerance: float
 ) -> tuple[float, float, float]:
     """Go from begin to end with the local error of each step below ``tolerance``.
 
@@ -176,7 +176,7 @@ def _adaptive(
     return total, longest, min(wanted, largest)
 
 
-def _doubled(stepper: Stepper, time: float, step: float) -> tuple[float, float]:
+def _doubled(stepper: AnyStepper, time: float, step: float) -> tuple[float, float]:
     """Take two steps of Δt/2; mass defect, and the error estimated by comparison with one of Δt.
 
     The scheme is of second order, so a third of their difference estimates the error of the finer one.
