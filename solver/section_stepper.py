@@ -10,7 +10,7 @@ from solver.schemes.section import advance
 from solver.stepper import INLETS, failure, lumen_volume, mass_defect, offsets, outlet_numbers
 from solver.stepper import fields_of as row_fields
 
-TOLERANCE = 1e-7  # relative change of P and Q (root mean square) at which a step's iteration ends
+TOLERANCE = 1e-6  # relative change of P and Q (root mean square) at which a step's iteration ends
 MAX_SWEEPS = 60
 
 Floats = NDArray[np.float64]

@@ -33,11 +33,15 @@ from solver.schemes.section_ends import (
 )
 from solver.schemes.section_layout import Fields, Parameters, Workspace
 from solver.schemes.section_rows import (
+    FAST,
+    areas_between,
+    copied,
     cross_flows,
-    inner_face_areas,
     momentum_balance,
     momentum_fluxes,
     profiles,
+    scaled_rows,
+    section_sums,
     solve_rows,
     take_change,
     wall_areas,
@@ -48,20 +52,12 @@ LOWER, MIDDLE, UPPER = 0, 1, 2
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _mass_balance(s: Stepping, p: Parameters, ws: Workspace, fields: Fields) -> None:
+def _mass_balance(s: Stepping, p: Parameters, ws: Workspace) -> None:
     """Mass balance of every section at the iterate, summed over φ."""
     ratio = s.time_step / p.dx
-    n_x, n = fields.area.shape
-    before = 0.0
-    for j in range(n):
-        before += ws.mean_flow[0, j]
-    for i in range(n_x):
-        area, after = 0.0, 0.0
-        for j in range(n):
-            area += fields.area[i, j]
-            after += ws.mean_flow[i + 1, j]
-        ws.mass[i] = area - ws.area_sum[i] - ratio * (after - before)
-        before = after
+    for i in range(ws.mass.size):
+        divergence = ratio * (ws.flow_sum[i + 1] - ws.flow_sum[i])
+        ws.mass[i] = ws.old_area_sum[i] - ws.area_sum[i] - divergence
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -173,9 +169,8 @@ def _evaluate(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tupl
         ws.slope_sum,
     )
     if status == OK:
-        weighted(fields.area, ws.iterate_area, s.theta, ws.mean_area)
-        weighted(fields.flow, ws.iterate_flow, s.theta, ws.mean_flow)
-        inner_face_areas(ws.mean_area, ws.face_area)
+        areas_between(fields.area, ws.iterate_area, s.theta, ws.mean_area, ws.face_area)
+        weighted(fields.flow, ws.iterate_flow, s.theta, ws.mean_flow, ws.flow_sum)
         status, i = end_face_areas(p, ws, s.theta)
     if status != OK:
         return status, i, 0
@@ -203,7 +198,7 @@ def _evaluate(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tupl
         1.0 / s.time_step,
         p.dx,
         p.dphi,
-        ws.scratch[0],
+        ws.scratch,
         ws.cross_flow,
     )
     return OK, 0, 0
@@ -241,7 +236,7 @@ def _sweep(
     a, b = outlet_law(p, s, ws, fields, offset)
     outflow = np.sum(ws.iterate_flow[n_x])
     gap = a + b * outflow - ws.iterate_pressure[n_x + 1]
-    _mass_balance(s, p, ws, fields)
+    _mass_balance(s, p, ws)
     _advection_matrix(s, p, ws, outlet_slope)
     _section_matrix(s, p, ws, gap, b)
     _thomas(ws.section_matrix, ws.total, ws.change)
@@ -252,7 +247,7 @@ def _sweep(
     return OK, 0, 0, squares
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def _extrapolate(new: Array, older: Array, oldest: Array, guess: Array, order: int) -> None:
     """First iterate: the old state, or its extrapolation in time of order 1 or 2; remember the past."""
     a = (1.0, 2.0, 3.0)[order]
@@ -289,6 +284,8 @@ def step(
     """
     _extrapolate(fields.pressure, ws.older_pressure, ws.oldest_pressure, ws.iterate_pressure, order)
     _extrapolate(fields.flow, ws.older_flow, ws.oldest_flow, ws.iterate_flow, order)
+    section_sums(fields.area, ws.old_area_sum)
+    section_sums(fields.flow, ws.old_flow_sum)
     status, i = end_walls(p, fields.pressure, ws.old_end_area)
     if status != OK:
         return status, i, 0, 0
@@ -298,7 +295,7 @@ def step(
         status, i, j, squares = _sweep(p, s, ws, fields, value, offset)
         if status != OK:
             return status, i, j, sweep
-        change, size = take_change(ws.residual, ws.iterate_flow)
+        change, size = take_change(ws.residual, ws.iterate_flow, ws.new_flow_sum)
         level = 0.0
         for pressure in ws.iterate_pressure[1:-1]:
             level += pressure * pressure
@@ -308,43 +305,32 @@ def step(
         rest_pressure = 1e-9 * np.sqrt(ws.mass.size) + 1e-12 * np.sqrt(level)
         flow_converged = np.sqrt(change) <= s.tolerance * np.sqrt(size) + rest_flow
         if flow_converged and np.sqrt(squares) <= s.tolerance * np.sqrt(level) + rest_pressure:
-            return *_accept(p, s, ws, fields), sweep
+            _accept(p, s, ws, fields)
+            return OK, 0, 0, sweep
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
-    """Take the iterate as the new state; ΣA' from the fluxes, so that mass is kept to round-off."""
-    n_x, n = fields.area.shape
-    status, i = wall_areas(
-        p.table,
-        p.sums,
-        p.table_start,
-        p.table_step,
-        ws.iterate_pressure[1 : n_x + 1],
-        ws.iterate_area,
-        ws.area_sum,
-        ws.slope_sum,
-    )
-    if status != OK:
-        return status, i, 0
+def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
+    """Take the iterate as the new state; ΣA' from the fluxes, so that mass is kept to round-off.
+
+    A of the last sweep is scaled to it: the sections' pressures changed since by less than the tolerance.
+    """
+    n_x = fields.area.shape[0]
     if p.inlet_kind != PRESSURE_INLET:
         ws.iterate_pressure[0] = 1.5 * ws.iterate_pressure[1] - 0.5 * ws.iterate_pressure[2]
-    weighted(fields.flow, ws.iterate_flow, s.theta, ws.mean_flow)
-    ratio, volume = s.time_step / p.dx, 0.5 * p.dphi * s.time_step
-    before = np.sum(ws.mean_flow[0])
-    ws.exchanged[0] += volume * before
+    for f in range(n_x + 1):
+        ws.flow_sum[f] = (1.0 - s.theta) * ws.old_flow_sum[f] + s.theta * ws.new_flow_sum[f]
+    _mass_balance(s, p, ws)
     for i in range(n_x):
-        after, old, new = np.sum(ws.mean_flow[i + 1]), np.sum(fields.area[i]), np.sum(ws.iterate_area[i])
-        share = (old - ratio * (after - before)) / new
-        for j in range(n):
-            fields.area[i, j] = share * ws.iterate_area[i, j]
-        before = after
-    ws.exchanged[1] += volume * before
-    fields.flow[:, :] = ws.iterate_flow
+        ws.mass[i] = 1.0 + ws.mass[i] / ws.area_sum[i]
+    scaled_rows(ws.iterate_area, ws.mass, fields.area)
+    volume = 0.5 * p.dphi * s.time_step
+    ws.exchanged[0] += volume * ws.flow_sum[0]
+    ws.exchanged[1] += volume * ws.flow_sum[n_x]
+    copied(ws.iterate_flow, fields.flow)
     fields.pressure[:] = ws.iterate_pressure
-    update_reservoir(p, fields, 0.5 * p.dphi * np.sum(fields.flow[n_x]))
-    return OK, 0, 0
+    update_reservoir(p, fields, 0.5 * p.dphi * ws.new_flow_sum[n_x])
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -87,10 +87,14 @@ class Workspace(NamedTuple):
     iterate_pressure: Array  # (n_x + 2,)
     older_pressure: Array
     oldest_pressure: Array
+    old_area_sum: Array  # (n_x,): Σ A
     area_sum: Array  # (n_x,): Σ A(P')
     slope_sum: Array  # (n_x,): Σ dA/dP
     mass: Array  # (n_x,): mass balance, then δP
     flux_slope: Array  # (n_x,): θ ∂(αQ²/A)/∂Q, mean over φ
+    flow_sum: Array  # (n_x + 1,): Σ of the θ-weighted Q
+    old_flow_sum: Array  # (n_x + 1,): Σ Q
+    new_flow_sum: Array  # (n_x + 1,): Σ Q'
     mean_damping: Array  # (n_x + 1,)
     area_total: Array  # (n_x + 1,): Σ A on faces
     total: Array  # (n_x + 1,): Σ of the momentum balance over φ
@@ -105,6 +109,6 @@ def workspace(n_x: int, n_phi: int) -> Workspace:
     cells, faces, ghosted, pair = (n_x, n_phi), (n_x + 1, n_phi), (n_x + 1, n_phi + 2), (2, n_phi)
     shapes: list[tuple[int, ...]] = [faces, cells, cells, faces, ghosted, ghosted, faces, faces, cells]
     shapes += [(n_x, n_phi + 1), faces, faces, faces, pair, pair, (5, n_phi + 2)]
-    shapes += [(n_x + 2,)] * 3 + [(n_x,)] * 4 + [(n_x + 1,)] * 3
+    shapes += [(n_x + 2,)] * 3 + [(n_x,)] * 5 + [(n_x + 1,)] * 6
     shapes += [(3, n_x + 1)] * 2 + [(n_x + 1,), (2,)]
     return Workspace(*(np.zeros(shape) for shape in shapes))

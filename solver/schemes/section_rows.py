@@ -4,6 +4,7 @@ Face f lies left of cell f; a row of φ is contiguous. Each pass takes plain arr
 vectorise.
 """
 
+import numpy as np
 from numba import njit
 
 from solver.schemes.layout import BEYOND_WALL_TABLE, NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY, Array
@@ -25,7 +26,8 @@ def wall_row(table: Array, start: float, step: float, pressure: float, area: Arr
     h01 = t * t * (3.0 - 2.0 * t)
     h00 = 1.0 - h01
     for j in range(area.size):
-        area[j] = h00 * table[k, 0, j] + h10 * table[k, 1, j] + h01 * table[k + 1, 0, j] + h11 * table[k + 1, 1, j]
+        value = h00 * table[k, 0, j] + h01 * table[k + 1, 0, j]
+        area[j] = value + h10 * table[k, 1, j] + h11 * table[k + 1, 1, j]
     return OK
 
 
@@ -55,20 +57,45 @@ def wall_areas(
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def weighted(old: Array, new: Array, theta: float, mean: Array) -> None:
-    """θ-weighted mean of two 2-D arrays."""
+def weighted(old: Array, new: Array, theta: float, mean: Array, totals: Array) -> None:
+    """θ-weighted mean of two 2-D arrays, and its sums over φ."""
     for i in range(old.shape[0]):
+        total = 0.0
         for j in range(old.shape[1]):
-            mean[i, j] = (1.0 - theta) * old[i, j] + theta * new[i, j]
+            value = (1.0 - theta) * old[i, j] + theta * new[i, j]
+            mean[i, j] = value
+            total += value
+        totals[i] = total
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def inner_face_areas(mean_area: Array, face_area: Array) -> None:
-    """A between cells, into the inside of rows with ghosts."""
-    n = mean_area.shape[1]
-    for f in range(1, mean_area.shape[0]):
+def section_sums(values: Array, totals: Array) -> None:
+    """Sums over φ of a 2-D array."""
+    for i in range(values.shape[0]):
+        total = 0.0
+        for j in range(values.shape[1]):
+            total += values[i, j]
+        totals[i] = total
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+def scaled_rows(values: Array, factors: Array, scaled: Array) -> None:
+    """Rows of a 2-D array times one factor each."""
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            scaled[i, j] = factors[i] * values[i, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+def areas_between(old: Array, new: Array, theta: float, mean_area: Array, face_area: Array) -> None:
+    """θ-weighted A in cells, and between them into the inside of rows with ghosts."""
+    n = old.shape[1]
+    for i in range(old.shape[0]):
         for j in range(n):
-            face_area[f, j + 1] = 0.5 * (mean_area[f - 1, j] + mean_area[f, j])
+            mean_area[i, j] = (1.0 - theta) * old[i, j] + theta * new[i, j]
+        if i > 0:
+            for j in range(n):
+                face_area[i, j + 1] = 0.5 * (mean_area[i - 1, j] + mean_area[i, j])
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
@@ -199,25 +226,47 @@ def momentum_fluxes(flow: Array, mean_area: Array, alpha: Array, theta: float, f
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def cross_flows(
-    old_area: Array, area: Array, flow: Array, rate: float, dx: float, dphi: float, source: Array, cross: Array
+    old_area: Array,
+    area: Array,
+    flow: Array,
+    rate: float,
+    dx: float,
+    dphi: float,
+    source: Array,
+    cross: Array,
 ) -> None:
-    """W on the φ-faces of cells from the rows' mass balance, zero on average; ``rate`` is 1/Δt."""
-    n = flow.shape[1]
-    for i in range(area.shape[0]):
-        total = 0.0
+    """W on the φ-faces of cells from the rows' mass balance, zero on average; ``rate`` is 1/Δt.
+
+    Four sections go through the running sum at once: it waits for each addition, they do not for each other.
+    ``source`` is scratch (4, n_phi at least).
+    """
+    n_x, n = area.shape
+    storage, outflow = dphi * rate, dphi / dx
+    balance, level = np.zeros(4), np.zeros(4)
+    for first in range(0, n_x, 4):
+        for k in range(4):
+            i = min(first + k, n_x - 1)
+            total = 0.0
+            for j in range(n):
+                change = storage * (area[i, j] - old_area[i, j]) + outflow * (flow[i + 1, j] - flow[i, j])
+                source[k, j] = change
+                total += change
+            balance[k] = total / n
+        b0, b1, b2, b3 = balance
+        w0, w1, w2, w3 = 0.0, 0.0, 0.0, 0.0
+        m0, m1, m2, m3 = 0.0, 0.0, 0.0, 0.0
         for j in range(n):
-            source[j] = dphi * ((area[i, j] - old_area[i, j]) * rate + (flow[i + 1, j] - flow[i, j]) / dx)
-            total += source[j]
-        balance = total / n
-        w, mean = 0.0, 0.0
-        for j in range(n):
-            cross[i, j] = w
-            mean += w
-            w += balance - source[j]
-        mean /= n
-        for j in range(n):
-            cross[i, j] -= mean
-        cross[i, n] = cross[i, 0]
+            next0, next1 = w0 + (b0 - source[0, j]), w1 + (b1 - source[1, j])
+            next2, next3 = w2 + (b2 - source[2, j]), w3 + (b3 - source[3, j])
+            source[0, j], source[1, j], source[2, j], source[3, j] = w0, w1, w2, w3
+            m0, m1, m2, m3 = m0 + w0, m1 + w1, m2 + w2, m3 + w3
+            w0, w1, w2, w3 = next0, next1, next2, next3
+        level[0], level[1], level[2], level[3] = m0, m1, m2, m3
+        for k in range(min(4, n_x - first)):
+            mean = level[k] / n
+            for j in range(n):
+                cross[first + k, j] = source[k, j] - mean
+            cross[first + k, n] = cross[first + k, 0]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
@@ -287,13 +336,24 @@ def solve_rows(residual: Array, face_area: Array, pull: Array, matrix: Array, ou
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def take_change(change: Array, flow: Array) -> tuple[float, float]:
-    """Add δQ to the iterate; sums of squares of the change and of the new flow."""
+def take_change(change: Array, flow: Array, totals: Array) -> tuple[float, float]:
+    """Add δQ to the iterate; sums of squares of the change and of the new flow, and its sums over φ."""
     squares, size = 0.0, 0.0
     for f in range(flow.shape[0]):
+        total = 0.0
         for j in range(flow.shape[1]):
             new = flow[f, j] + change[f, j]
             flow[f, j] = new
             squares += change[f, j] * change[f, j]
             size += new * new
+            total += new
+        totals[f] = total
     return squares, size
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+def copied(source: Array, target: Array) -> None:
+    """Copy a 2-D array."""
+    for i in range(source.shape[0]):
+        for j in range(source.shape[1]):
+            target[i, j] = source[i, j]
