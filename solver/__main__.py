@@ -8,6 +8,7 @@ from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
 from solver.errors import SolverError
 from solver.files import check_folder
+from solver.locality import locality_warning
 from solver.progress import progress_bar
 from solver.run import pieces_folder, run_identity, run_to_file, run_whole
 
@@ -64,6 +65,9 @@ def main() -> int:
         kept = pieces_folder(arguments.output)
         print(f"interrupted; --resume goes on from the last piece in {kept}", file=sys.stderr)
         return INTERRUPTED
+    warning = locality_warning(done.get("wall_locality_error"))
+    if warning:
+        print(f"warning: {warning}", file=sys.stderr)
     print(f"{arguments.output}: {done['steps']} steps of at most {done['time_step_s']:.6g} s")
     return 0
 

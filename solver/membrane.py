@@ -80,7 +80,7 @@ class Membrane:
         n_x, _ = self.shear.shape
         between = 2.0 / (1.0 / self.shear[1:] + 1.0 / self.shear[:-1])
         on_faces = 0.5 * (between + np.roll(between, 1, axis=1))
-        step = sparse.diags_array([-np.ones(n_x - 1), np.ones(n_x - 1)], offsets=[0, 1], shape=(n_x - 1, n_x))
+        step = sparse.eye_array(n_x - 1, n_x, k=1) - sparse.eye_array(n_x - 1, n_x)
         parts = []
         for stiffness in (between, on_faces):
             along = sparse.kron(step / self.dx, sparse.eye_array(self.shear.shape[1]), format="csr")

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from solver.errors import ModelError
 from solver.grid import Grid
 from solver.membrane import Membrane, displacement
 from solver.section_wall import SectionWall, from_radii
@@ -124,17 +123,15 @@ def _table(wall: MembraneWall, loads: Floats, found: Floats) -> SectionWall:
     compliance = (found - wall.radius) / loads[:, None, None]
     matrix = chebyshev.chebvander(scaled, PRESSURES - 1)
     coefficients = np.linalg.solve(matrix, compliance.reshape(PRESSURES, -1))
-    knots = wall.highest_load / KNOTS * np.arange(-KNOTS_BELOW, KNOTS + 1)
+    knots = wall.highest_load / KNOTS * np.arange(-KNOTS_BELOW, KNOTS + 1, dtype=float)
     at = np.maximum(2 * knots / wall.highest_load - 1, -1.0)
     value = chebyshev.chebvander(at, PRESSURES - 1) @ coefficients
     derivative = np.zeros_like(coefficients)
     derivative[:-1] = chebyshev.chebder(coefficients) * (2 / wall.highest_load)
-    slope = np.where(knots > 0, knots, 0.0)[:, None] * (
-        chebyshev.chebvander(at, PRESSURES - 1) @ derivative
-    )
+    slope = np.where(knots > 0, knots, 0.0)[:, None] * (chebyshev.chebvander(at, PRESSURES - 1) @ derivative)
     shape = (knots.size, wall.grid.n_x, wall.grid.n_phi)
     radius = np.moveaxis((wall.radius + knots[:, None] * value).reshape(shape), 0, 1)
-    slopes = np.moveaxis((value + slope).reshape(shape), 0, 1)
+    slopes = np.asarray(np.moveaxis((value + slope).reshape(shape), 0, 1), dtype=float)
     return from_radii(wall.reference_pressure + knots, radius, slopes)
 
 

@@ -7,6 +7,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from cases.fields import FIELDS
+from solver.cross_flow import azimuthal_flux
 from solver.errors import NoAdmissibleProfile
 from solver.model import Model
 from solver.profiles import continuity_exponent
@@ -65,7 +66,8 @@ def to_dataset(trajectory: Trajectory) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        pressure, radius, mean_velocity, profile_exponent, sector_flow_rate on (time, x, phi);
+        pressure, radius, mean_velocity, profile_exponent, sector_flow_rate on (time, x, phi), and
+        azimuthal_flux where rows exchange blood;
         section_flow_rate, section_pressure on (time, x); wall_stiffness on
         (x, phi); mass_defect on (time). SI.
 
@@ -79,7 +81,15 @@ def to_dataset(trajectory: Trajectory) -> xr.Dataset:
     cells = CellHistory(
         trajectory.times, trajectory.area, flow, trajectory.pressure, exponent, trajectory.mass_defect
     )
-    return cell_dataset(trajectory.model, cells).assign_attrs(
+    dataset = cell_dataset(trajectory.model, cells)
+    wall, grid = trajectory.model.section_wall, trajectory.model.grid
+    if wall is not None:
+        crossing = [
+            azimuthal_flux(wall, grid.dx, grid.dphi, pressure[:, 0], faces)
+            for pressure, faces in zip(trajectory.pressure, trajectory.flow, strict=True)
+        ]
+        dataset["azimuthal_flux"] = described("azimuthal_flux", np.array(crossing))
+    return dataset.assign_attrs(
         scheme="semi_implicit",
         time_step_s=trajectory.longest_step,
         steps=trajectory.steps,

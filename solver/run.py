@@ -21,6 +21,7 @@ from solver.case_run import run_case
 from solver.errors import SolverError
 from solver.files import write_netcdf
 from solver.from_case import default_output_times, error_tolerance, initial_state, model_of
+from solver.locality import wall_locality_error, widest
 from solver.model import Model, State
 from solver.result import to_dataset
 from solver.simulate import Progress, Snapshot, Trajectory, collect, snapshots
@@ -120,9 +121,13 @@ def run_to_file(
             own = replace(piece, steps=piece.steps - steps, sweeps=piece.sweeps - sweeps)
             _write(folder / f"{number:08d}.npz", own, snapshot)
             taken, steps, sweeps = [], piece.steps, piece.sweeps
-    attributes = _join(model, sorted(folder.glob("*.npz")), result, attributes)
+    paths = sorted(folder.glob("*.npz"))
+    error = wall_locality_error(case, model.section_wall, _widest_of(model, paths))
+    if error is not None:
+        attributes = {**attributes, "wall_locality_error": error}
+    described = _join(model, paths, result, attributes)
     shutil.rmtree(folder)
-    return attributes
+    return described if error is None else {**described, "wall_locality_error": error}
 
 
 def run_whole(
@@ -183,6 +188,12 @@ def _read(model: Model, path: Path) -> Piece:
         end = {part.name: stored[f"end_{part.name}"] for part in fields(State)}
     end |= {name: float(end[name]) for name in ("time", "reservoir")}
     return Piece(Trajectory(model=model, **arrays, **numbers), State(**end), next_step)
+
+
+def _widest_of(model: Model, paths: list[Path]) -> np.ndarray:
+    """Section pressures at the instant of a run at which they vary most along the artery, Pa, (n_x,)."""
+    profiles = [widest(_read(model, path).trajectory.pressure) for path in paths]
+    return max(profiles, key=lambda profile: float(np.ptp(profile)))
 
 
 def _join(model: Model, paths: list[Path], result: Path, attributes: dict[str, Any]) -> dict[str, Any]:

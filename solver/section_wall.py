@@ -12,7 +12,10 @@ from numpy.typing import NDArray
 from solver.errors import ModelError
 from solver.wall_table import WallTable
 
-LOWEST_SHARE, HIGHEST_SHARE = -0.9, 4.0  # growth R/R₀ − 1 of the softest cell that a linear wall's table covers
+LOWEST_SHARE, HIGHEST_SHARE = (
+    -0.9,
+    4.0,
+)  # growth R/R₀ − 1 of the softest cell that a linear wall's table covers
 BISECTIONS = 80
 
 Floats = NDArray[np.float64]
@@ -57,7 +60,7 @@ class SectionWall:
         return np.ascontiguousarray(self.values.sum(axis=-1))
 
     def area(self, pressure: Floats) -> Floats:
-        """A of every cell at section pressures (n_x,), (n_x, n_phi), m².
+        """Return A of every cell at section pressures (n_x,), (n_x, n_phi), m².
 
         Raises
         ------
@@ -67,7 +70,7 @@ class SectionWall:
         return self.area_and_slope(pressure)[0]
 
     def area_and_slope(self, pressure: Floats) -> tuple[Floats, Floats]:
-        """A, m², and dA/dP, m²/Pa, of every cell at section pressures (n_x,).
+        """Return A, m², and dA/dP, m²/Pa, of every cell at section pressures (n_x,).
 
         Raises
         ------
@@ -130,10 +133,23 @@ def tabulated_section_wall(table: WallTable) -> SectionWall:
     """Table of a nonlinear row law."""
     pressures = table.start + table.step * np.arange(table.values.shape[2])
     values = np.moveaxis(table.values, 1, 2)
-    return from_radii(pressures, values[..., 0], values[..., 1])
+    return from_radii(np.asarray(pressures, dtype=float), values[..., 0], values[..., 1])
 
 
 def from_radii(pressures: Floats, radii: Floats, slopes: Floats) -> SectionWall:
     """Table from R, m, and dR/dP, m/Pa, of every cell, (n_x, knots, n_phi), at equidistant pressures, Pa."""
     values = np.stack(np.broadcast_arrays(radii**2, 2 * radii * slopes), axis=2)
     return SectionWall(float(pressures[0]), float(pressures[1] - pressures[0]), np.ascontiguousarray(values))
+
+
+def row_table(wall: SectionWall) -> WallTable:
+    """Table R(P) for rows that have a pressure each.
+
+    Raises
+    ------
+    ModelError
+        Where a cell does not grow with pressure.
+    """
+    radii = np.sqrt(wall.values[:, :, 0])
+    values = np.stack([radii, 0.5 * wall.values[:, :, 1] / radii], axis=-1)
+    return WallTable(wall.start, wall.step, np.ascontiguousarray(np.moveaxis(values, 1, 2)))

@@ -21,7 +21,6 @@ from numba import njit
 
 from solver.schemes.layout import NOT_CONVERGED, NOT_FINITE, OK, PRESSURE_INLET, Array, Stepping
 from solver.schemes.section_ends import (
-
     end_face_areas,
     end_walls,
     inlet_balance,
@@ -231,18 +230,18 @@ def _sweep(
         ws.residual,
         ws.total,
     )
-    inlet_balance(p, s, ws, fields, value, drive[0])
-    outlet_slope = outlet_balance(p, s, ws, fields, drive[n_x])
+    inlet_balance(p, s, ws, fields, value, float(drive[0]))
+    outlet_slope = outlet_balance(p, s, ws, fields, float(drive[n_x]))
     a, b = outlet_law(p, s, ws, fields, offset)
-    outflow = np.sum(ws.iterate_flow[n_x])
+    outflow = float(np.sum(ws.iterate_flow[n_x]))
     gap = a + b * outflow - ws.iterate_pressure[n_x + 1]
     _mass_balance(s, p, ws)
     _advection_matrix(s, p, ws, outlet_slope)
     _section_matrix(s, p, ws, gap, b)
     _thomas(ws.section_matrix, ws.total, ws.change)
     squares = _section_change(s, p, ws, gap, b)
-    spread(ws.change[0], ws.residual[0], ws.scratch[3])
-    shared = share_outlet(ws, outflow + ws.change[n_x])
+    spread(float(ws.change[0]), ws.residual[0], ws.scratch[3])
+    shared = share_outlet(ws, outflow + float(ws.change[n_x]))
     solve_rows(ws.residual, ws.face_area, ws.total, ws.matrix, shared)
     return OK, 0, 0, squares
 
@@ -330,7 +329,7 @@ def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     ws.exchanged[1] += volume * ws.flow_sum[n_x]
     copied(ws.iterate_flow, fields.flow)
     fields.pressure[:] = ws.iterate_pressure
-    update_reservoir(p, fields, 0.5 * p.dphi * ws.new_flow_sum[n_x])
+    update_reservoir(p, fields, 0.5 * p.dphi * float(ws.new_flow_sum[n_x]))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

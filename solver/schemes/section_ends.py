@@ -25,7 +25,7 @@ INLET, OUTLET = 0, 1
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def end_walls(p: Parameters, pressure: Array, end_area: Array) -> tuple[int, int]:
-    """A at the outlet, and at a pressure inlet, from end pressures; status and section."""
+    """Find A at the outlet, and at a pressure inlet, from end pressures; status and section."""
     n_x = p.table.shape[0]
     start, step = p.table_start, p.table_step
     status = wall_row(p.table[n_x - 1], start, step, pressure[n_x + 1], end_area[OUTLET])
@@ -54,8 +54,10 @@ def end_face_areas(p: Parameters, ws: Workspace, theta: float) -> tuple[int, int
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def inlet_balance(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, drive: float) -> None:
-    """What δQ at the inlet is but for a change of the section's flow, and Σ of the balance.
+def inlet_balance(
+    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, drive: float
+) -> None:
+    """Balance the inlet: δQ but for a change of the section's flow, and Σ of the balance.
 
     ``drive`` is Δt/(ρΔx/2) times the θ-weighted pressure's rise from the inlet to the first section.
     """
@@ -110,11 +112,13 @@ def outlet_balance(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, dr
         total += rest
         slopes += 2.0 * momentum
     ws.total[n_x] = total
-    return s.theta * slopes / n
+    return float(s.theta * slopes / n)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def outlet_law(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, offset: float) -> tuple[float, float]:
+def outlet_law(
+    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, offset: float
+) -> tuple[float, float]:
     """Write the outlet as P' = a + b ΣQ'; a resistance by row takes the mean of the rows' answers."""
     n_x, n = ws.flux.shape
     sector = 0.5 * p.dphi
@@ -131,12 +135,12 @@ def outlet_law(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, offset
         series = p.resistance + s.theta * gain / (1.0 + s.theta * leak)
         return held / (1.0 + s.theta * leak), sector * series
     if p.outlet_kind == NON_REFLECTING:
-        return _non_reflecting_law(p, s, ws, fields)
+        return _non_reflecting_law(p, ws, fields)
     return offset, sector * p.resistance
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _non_reflecting_law(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[float, float]:
+def _non_reflecting_law(p: Parameters, ws: Workspace, fields: Fields) -> tuple[float, float]:
     """No wave enters: q' − q − Δt S q = λ₊ (S' − S) (2.2.41) of the section's sums."""
     n_x, n = ws.flux.shape
     _, slope = wall_sum(p.sums[n_x - 1], p.table_start, p.table_step, ws.iterate_pressure[n_x + 1])

@@ -55,8 +55,8 @@ class Parameters(NamedTuple):
 class Fields(NamedTuple):
     """The state that a step advances in place.
 
-    ``area`` A (n_x, n_phi), m²; ``flow`` Q (n_x + 1, n_phi), m³/s; ``pressure`` P (n_x + 2,), Pa: the inlet's,
-    the sections' and the outlet's; ``reservoir`` (1,), the Windkessel's P_c, Pa.
+    ``area`` A (n_x, n_phi), m²; ``flow`` Q (n_x + 1, n_phi), m³/s; ``pressure`` P (n_x + 2,), Pa: the
+    inlet's, the sections' and the outlet's; ``reservoir`` (1,), the Windkessel's P_c, Pa.
     """
 
     area: Array

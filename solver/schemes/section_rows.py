@@ -14,7 +14,7 @@ FAST = {"reassoc", "contract", "nsz"}  # sums in an order that vectorises, fused
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def wall_row(table: Array, start: float, step: float, pressure: float, area: Array) -> int:
-    """A of one section's cells at its pressure, from table (knots, 2, n_phi); OK or BEYOND_WALL_TABLE."""
+    """Find A of one section's cells at its pressure in a table (knots, 2, n_phi); OK or BEYOND_WALL_TABLE."""
     last = table.shape[0] - 2
     position = (pressure - start) / step
     if not 0.0 <= position <= last + 1.0:
@@ -45,9 +45,16 @@ def wall_sum(sums: Array, start: float, step: float, pressure: float) -> tuple[f
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def wall_areas(
-    table: Array, sums: Array, start: float, step: float, pressure: Array, area: Array, totals: Array, slopes: Array
+    table: Array,
+    sums: Array,
+    start: float,
+    step: float,
+    pressure: Array,
+    area: Array,
+    totals: Array,
+    slopes: Array,
 ) -> tuple[int, int]:
-    """A of all cells, and ΣA and ΣdA/dP of all sections; status and section."""
+    """Find A of all cells, and ΣA and ΣdA/dP of all sections; status and section."""
     for i in range(area.shape[0]):
         status = wall_row(table[i], start, step, pressure[i], area[i])
         if status != OK:
@@ -70,7 +77,7 @@ def weighted(old: Array, new: Array, theta: float, mean: Array, totals: Array) -
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def section_sums(values: Array, totals: Array) -> None:
-    """Sums over φ of a 2-D array."""
+    """Sum a 2-D array over φ."""
     for i in range(values.shape[0]):
         total = 0.0
         for j in range(values.shape[1]):
@@ -149,10 +156,10 @@ def _fixed(inverse_area: Array, alpha: Array, damping: Array, exponent: float, s
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _at_rest(velocity: Array) -> bool:
+    count = 0
     for j in range(velocity.size):
-        if abs(velocity[j]) >= REST_VELOCITY:
-            return False
-    return True
+        count += abs(velocity[j]) < REST_VELOCITY
+    return count == velocity.size
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -197,9 +204,12 @@ def profiles(
         d = 2.0 * total / n
         if exponent > 0.0:
             _fixed(inverse, alpha[f], damping[f], exponent, scale)
-        elif not _closure(
-            face_area[f], velocity[f], inverse, bend, slope, alpha[f], damping[f], d, scale, dphi
-        ) or abs(d) <= REST_VELOCITY:
+        elif (
+            not _closure(
+                face_area[f], velocity[f], inverse, bend, slope, alpha[f], damping[f], d, scale, dphi
+            )
+            or abs(d) <= REST_VELOCITY
+        ):
             if not _at_rest(velocity[f]):
                 return NO_ADMISSIBLE_PROFILE, f, _inadmissible_row(velocity[f], d)
             _fixed(inverse, alpha[f], damping[f], 2.0, scale)
@@ -211,7 +221,9 @@ def profiles(
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def momentum_fluxes(flow: Array, mean_area: Array, alpha: Array, theta: float, flux: Array, slopes: Array) -> None:
+def momentum_fluxes(
+    flow: Array, mean_area: Array, alpha: Array, theta: float, flux: Array, slopes: Array
+) -> None:
     """αQ²/A at cell centres, and θ times the mean over φ of its derivative by either face's Q."""
     n = flow.shape[1]
     for i in range(flux.shape[0]):
