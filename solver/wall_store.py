@@ -59,7 +59,7 @@ def kept_array(
 
 def _read(path: Path) -> Floats | None:
     try:
-        with np.load(path, allow_pickle=False) as stored:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
             values, stated = np.asarray(stored["values"], dtype=float), str(stored["digest"])
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
         return None
