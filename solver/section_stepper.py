@@ -10,7 +10,7 @@ from solver.schemes.section import advance
 from solver.stepper import INLETS, failure, lumen_volume, mass_defect, offsets, outlet_numbers
 from solver.stepper import fields_of as row_fields
 
-TOLERANCE = 1e-6  # relative change of P and Q (root mean square) at which a step's iteration ends
+TOLERANCE = 5e-7  # relative change of P and Q (root mean square) at which a step's iteration ends
 MAX_SWEEPS = 60
 
 Floats = NDArray[np.float64]
@@ -31,12 +31,12 @@ class SectionStepper:
         Relative change of P and Q at which a step's iteration ends.
     """
 
-    def __init__(self, model: Model, state: State, tolerance: float = TOLERANCE) -> None:
+    def __init__(self, model: Model, state: State, tolerance: float | None = None) -> None:
         self.model = model
         self.time = state.time
         self.steps = 0
         self.sweeps = 0
-        self.tolerance = tolerance
+        self.tolerance = TOLERANCE if tolerance is None else tolerance
         self._parameters = parameters(model)
         self._workspace = section_layout.workspace(model.grid.n_x, model.grid.n_phi)
         self._fields = fields_of(model, state)
