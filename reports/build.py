@@ -1,8 +1,10 @@
 """Both renderings of one comparison, written beside it."""
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
+from reports.ablation import ablation_section
 from reports.content import report
 from reports.html import render_html
 from reports.load import load
@@ -17,7 +19,7 @@ def write_reports(directory: Path) -> tuple[Path, Path]:
     Parameters
     ----------
     directory : Path
-        Holds comparison.nc, metrics.json and provenance.json.
+        Holds comparison.nc, metrics.json and provenance.json, and ablation.json if there is one.
 
     Returns
     -------
@@ -30,6 +32,9 @@ def write_reports(directory: Path) -> tuple[Path, Path]:
         If the directory is not a finished comparison.
     """
     content = report(load(directory))
+    bought = ablation_section(directory)
+    if bought is not None:  # before the provenance
+        content = replace(content, sections=(*content.sections[:-1], bought, content.sections[-1]))
     pages = {
         directory / "report.html": render_html(content).encode(),
         directory / "report.pdf": render_pdf(content),

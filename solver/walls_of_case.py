@@ -14,6 +14,8 @@ from solver.section_wall import SectionWall, linear_section_wall, row_table, tab
 from solver.wall_from_case import WallOnGrid, modulus_on_grid, wall_on_grid
 from solver.wall_table import WallTable
 
+NONLINEAR_GROWTH = 0.25  # R/R₀ − 1 of the softest row of a nonlinear base at the highest pressure
+
 Floats = NDArray[np.float64]
 
 
@@ -63,7 +65,7 @@ def membrane_of(case: Case, grid: Grid, own: WallOnGrid) -> membrane_tables.Memb
         return None
     highest = membrane_tables.HIGHEST_GROWTH * float(np.min(own.stiffness)) / radius
     if own.table is not None:
-        highest = min(highest, own.table.end - own.reference_pressure)
+        highest = min(highest, _load_of_growth(own.table, radius, own.reference_pressure))
 
     def secant_stiffness(load: float) -> Floats:
         if own.table is None:
@@ -80,6 +82,13 @@ def membrane_of(case: Case, grid: Grid, own: WallOnGrid) -> membrane_tables.Memb
         supports=wall.supports,
         highest_load=highest,
     )
+
+
+def _load_of_growth(table: WallTable, radius: float, reference_pressure: float) -> float:
+    """Largest tabulated load up to which every row's radius grows moderately, Pa; beyond it may run away."""
+    pressures = table.start + table.step * np.arange(table.values.shape[2])
+    moderate = np.max(table.values[..., 0], axis=(0, 1)) <= (1 + NONLINEAR_GROWTH) * radius
+    return float(np.max(pressures[moderate]) - reference_pressure)
 
 
 def _shear_stiffness(case: Case, grid: Grid, wall: OwnWall, poisson_ratio: float) -> Floats:
