@@ -36,7 +36,7 @@ from validation.thesis_sectors import sector_errors
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
 WRONG_INPUT, INTERRUPTED = 2, 130
-PAGE_WIDTH = 150
+PAGE_WIDTH = 160
 
 Floats = NDArray[np.float64]
 
@@ -169,7 +169,7 @@ def printed(rows: list[AblationRow]) -> Table:
     """Rows as a table for a terminal."""
     table = Table(title="Errors against 3D")
     for heading in ("variant", "model", *HEADINGS.values(), "run"):
-        table.add_column(heading)
+        table.add_column(heading, no_wrap=heading == "model")
     for row in rows:
         values = [getattr(row, name) for name in HEADINGS]
         texts = ["" if value is None else f"{100 * value:+.2f} %" for value in values]
