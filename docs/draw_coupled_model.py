@@ -58,7 +58,7 @@ def radius_figure(fields: dict[str, xr.Dataset], state: int) -> Figure:
     right.set(xlabel="x (mm)", title="rows opposite to the patch (upper) and in it (lower)")
     left.set_xticks(range(0, 361, 90))
     handles, labels = left.get_legend_handles_labels()
-    left.legend(handles[:3], labels[:3], frameon=False, loc="lower left")
+    figure.legend(handles[:3], labels[:3], frameon=False, loc="outside upper center", ncols=3)
     return figure
 
 
@@ -77,7 +77,7 @@ def share_figure(fields: dict[str, xr.Dataset], state: int) -> Figure:
         lines(axes, fields, share, along)
         axes.set(xlabel="x (mm)", title=f"row j = {row}")
     panels[0].set_ylabel("sector flow / mean of section")
-    panels[-1].legend(frameon=False, loc="upper center")
+    figure.legend(*panels[0].get_legend_handles_labels(), frameon=False, loc="outside upper center", ncols=3)
     return figure
 
 
