@@ -49,6 +49,7 @@ FIELDS = _table(
     Field("mean_velocity", "u", "mean velocity along the ray", "m s-1", "cm/s", 1e2, CELL),
     Field("profile_exponent", "γ", "velocity-profile exponent", "1", "1", 1.0, CELL),
     Field("sector_flow_rate", "q_φ", "flow rate through one sector", "m3 s-1", "cm³/s", 1e6, CELL),
+    Field("azimuthal_flux", "W", "azimuthal flux 2∫v_φ dr", "m2 s-1", "cm²/s", 1e4, CELL),
     Field("section_flow_rate", "q", "flow rate through the section", "m3 s-1", "cm³/s", 1e6, SECTION),
     Field("section_pressure", "P̄", "mean pressure over the section", "Pa", "kPa", 1e-3, SECTION),
     Field("axial_velocity", "v_x", "axial velocity", "m s-1", "cm/s", 1e2, RAY),

@@ -30,7 +30,16 @@ from cases.solver_settings import (
 )
 from cases.sources import FourierSeries
 from cases.values import ArteryLength, Density, Radius, Thickness, Viscosity, Words, refused
-from cases.wall import LINEAR_LAWS, HomogeneousWall, Layer, LayeredWall, TableWall, Wall
+from cases.wall import (
+    LINEAR_LAWS,
+    HomogeneousWall,
+    Layer,
+    LayeredWall,
+    MembraneWall,
+    TableWall,
+    Wall,
+    row_wall,
+)
 
 __all__ = [
     "AxialTransition",
@@ -51,6 +60,7 @@ __all__ = [
     "Layer",
     "LayeredWall",
     "LocalCalcification",
+    "MembraneWall",
     "NoCalcification",
     "NonReflectingOutlet",
     "Outlet",
@@ -128,14 +138,14 @@ class Case(Section):
     @field_validator("wall")
     @classmethod
     def _around_the_lumen(cls, wall: Wall, info: ValidationInfo) -> Wall:
-        geometry = info.data.get("geometry")
-        if geometry is not None and isinstance(wall, LayeredWall):
-            total = sum(layer.thickness for layer in wall.layers)
+        geometry, own = info.data.get("geometry"), row_wall(wall)
+        if geometry is not None and isinstance(own, LayeredWall):
+            total = sum(layer.thickness for layer in own.layers)
             if abs(total - geometry.wall_thickness) > SAME * geometry.wall_thickness:
                 allowed = f"thicknesses that sum to geometry.wall_thickness ({geometry.wall_thickness:g} m)"
                 raise refused(f"{total:.9g} m in all", allowed, key=("layers",))
-        if geometry is not None and isinstance(wall, TableWall):
-            least, largest = wall.table.radii[[0, -1]]
+        if geometry is not None and isinstance(own, TableWall):
+            least, largest = own.table.radii[[0, -1]]
             if not least <= geometry.radius <= largest:
                 allowed = f"a range that holds geometry.radius ({geometry.radius:g} m)"
                 raise refused(f"radii from {least:g} m to {largest:g} m", allowed, key=("table",))
@@ -150,7 +160,8 @@ class Case(Section):
         if geometry is not None and calcification.x[1] > geometry.length:
             found = f"{calcification.x[1]:g} m"
             raise refused(found, f"at most the artery's length ({geometry.length:g} m)", key=("x", 1))
-        if isinstance(wall, LayeredWall) and not any(layer.calcifies for layer in wall.layers):
+        own = None if wall is None else row_wall(wall)
+        if isinstance(own, LayeredWall) and not any(layer.calcifies for layer in own.layers):
             allowed = "none, unless a layer of the wall states calcifies: true"
             raise refused(calcification.pattern, allowed, key=("pattern",))
         return calcification
@@ -200,10 +211,10 @@ class Case(Section):
     @property
     def input_files(self) -> tuple[Path, ...]:
         """Absolute paths of the files that the case was read from, besides the case file itself."""
-        outlet = self.outlet
+        outlet, wall = self.outlet, row_wall(self.wall)
         paths = (
             *(() if self.reference is None else self.reference.input_files),
-            self.wall.table.path if isinstance(self.wall, TableWall) else None,
+            wall.table.path if isinstance(wall, TableWall) else None,
             None if self.inlet.waveform is None else self.inlet.waveform.path,
             outlet.waveform.path if isinstance(outlet, PressureOutlet) and outlet.waveform else None,
         )

@@ -26,6 +26,7 @@ RESOLVED_PER_CYCLE = 50  # saved states with which powers are integrated over ti
 
 Closure = Literal["average", "maximum", "least_squares"]
 Start = Literal["steady", "rest"]
+PressureOf = Literal["row", "section"]
 Limiter = Literal["van_leer", "superbee", "minmod", "upwind", "lax_wendroff"]
 Coefficients = Literal["corrected", "printed"]
 
@@ -116,11 +117,15 @@ class SemiImplicitSolver(SolverSettings):
     profile_exponent : float or None
         Fixed exponent γ of the velocity profile, for one row only, in [0.01, 1000]; None: γ follows from the
         closure.
+    pressure : str
+        What has a pressure of its own: each ``row`` of a section (the thesis's model), or the ``section``,
+        whose rows then exchange blood.
     """
 
     scheme: Annotated[Literal["semi_implicit"], one_of(Literal["semi_implicit"])]
     error_tolerance: Tolerance | None = None
     profile_exponent: Exponent | None = None
+    pressure: Annotated[PressureOf, one_of(PressureOf)] = "row"
 
     @field_validator("closure")
     @classmethod

@@ -1,8 +1,9 @@
 """The wall: how its pressure follows from its radius."""
 
-from typing import Annotated, Literal
+from types import MappingProxyType
+from typing import Annotated, Literal, Self
 
-from pydantic import Tag, field_validator
+from pydantic import Tag, field_validator, model_validator
 
 from cases.section import Section
 from cases.values import (
@@ -18,6 +19,8 @@ from cases.values import (
 )
 
 HomogeneousLaw = Literal["thin", "thick", "saint_venant_kirchhoff", "neo_hookean"]
+RowLaw = Literal[HomogeneousLaw, "layered", "table"]
+Supports = Literal["quarters", "free"]
 LINEAR_LAWS = ("thin", "thick", "layered")
 
 PoissonRatio = Annotated[float, number("a number from 0 on, less than 0.5", lambda value: 0 <= value < 0.5)]
@@ -66,6 +69,16 @@ class Layer(Section):
     calcifies: Switch = False
 
 
+def _named_apart(layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
+    if not layers:
+        raise refused(layers, "one layer or more, from inside to outside", "no layers")
+    names = [layer.name for layer in layers]
+    for item, name in enumerate(names):
+        if name in names[:item]:
+            raise refused(name, "a name that no other layer has", key=(item, "name"))
+    return layers
+
+
 class LayeredWall(Section):
     """A linear thick-walled tube of bonded layers.
 
@@ -87,13 +100,7 @@ class LayeredWall(Section):
     @field_validator("layers")
     @classmethod
     def _layers(cls, layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
-        if not layers:
-            raise refused(layers, "one layer or more, from inside to outside", "no layers")
-        names = [layer.name for layer in layers]
-        for item, name in enumerate(names):
-            if name in names[:item]:
-                raise refused(name, "a name that no other layer has", key=(item, "name"))
-        return layers
+        return _named_apart(layers)
 
 
 class TableWall(Section):
@@ -112,6 +119,71 @@ class TableWall(Section):
     youngs_modulus: Modulus
 
 
+OwnWall = HomogeneousWall | LayeredWall | TableWall
+
+_KEYS_OF_BASES = MappingProxyType(
+    {
+        "layered": (("layers",), ("reference_pressure",)),
+        "table": (("table", "youngs_modulus"), ()),
+    }
+)
+_KEYS_OF_ONE_MATERIAL = (("youngs_modulus",), ("reference_pressure",))
+
+
+class MembraneWall(Section):
+    """A wall that is one elastic sheet: stretched as a row law says, tied together around and along.
+
+    Attributes
+    ----------
+    base : str
+        The row law that it follows where it is uniform; its keys are stated beside.
+    poisson_ratio : float
+        ν in [0, 0.5), for the shear modulus E/(2(1 + ν)) also where the base itself needs none.
+    supports : str
+        What keeps it from moving as a whole: ``quarters``, four generators φ = 0, 90, 180, 270 deg that move
+        radially only; ``free``, nothing (its mean translation and rotation are zero).
+    youngs_modulus, reference_pressure, layers, table
+        Those of the base; None where it has none.
+    """
+
+    law: Annotated[Literal["membrane"], one_of(Literal["membrane"])]
+    base: Annotated[RowLaw, one_of(RowLaw)]
+    poisson_ratio: PoissonRatio
+    supports: Annotated[Supports, one_of(Supports)] = "quarters"
+    youngs_modulus: Modulus | None = None
+    reference_pressure: Pressure | None = None
+    layers: tuple[Layer, ...] | None = None
+    table: WallCurveFile | None = None
+
+    @field_validator("layers")
+    @classmethod
+    def _layers(cls, layers: tuple[Layer, ...] | None) -> tuple[Layer, ...] | None:
+        return None if layers is None else _named_apart(layers)
+
+    @model_validator(mode="after")
+    def _keys_of_the_base(self) -> Self:
+        needed, optional = _KEYS_OF_BASES.get(self.base, _KEYS_OF_ONE_MATERIAL)
+        for key in ("youngs_modulus", "reference_pressure", "layers", "table"):
+            stated = getattr(self, key) is not None
+            if key in needed and not stated:
+                raise refused(f"base {self.base} without {key}", f"with {', '.join(needed)}")
+            if stated and key not in (*needed, *optional):
+                allowed = f"base {self.base} with {', '.join((*needed, *optional, 'poisson_ratio'))}"
+                raise refused(key, allowed, key=(key,))
+        return self
+
+
+def row_wall(wall: "OwnWall | MembraneWall") -> OwnWall:
+    """Return the wall that each row would be by itself: a membrane's base, or the wall as it is."""
+    if not isinstance(wall, MembraneWall):
+        return wall
+    kinds: dict[str, type[OwnWall]] = {"layered": LayeredWall, "table": TableWall}
+    kind = kinds.get(wall.base, HomogeneousWall)
+    stated = {key: getattr(wall, key) for key in kind.model_fields if key != "law"}
+    values = {key: value for key, value in stated.items() if value is not None} | {"law": wall.base}
+    return kind.model_construct(None, **values)
+
+
 Wall = (
     Annotated[HomogeneousWall, Tag("thin")]
     | Annotated[HomogeneousWall, Tag("thick")]
@@ -119,4 +191,5 @@ Wall = (
     | Annotated[HomogeneousWall, Tag("saint_venant_kirchhoff")]
     | Annotated[HomogeneousWall, Tag("neo_hookean")]
     | Annotated[TableWall, Tag("table")]
+    | Annotated[MembraneWall, Tag("membrane")]
 )

@@ -6,6 +6,7 @@ from reports import further
 from reports.blocks import Block, Column, Paragraph, Section, Table
 from reports.cells import chunks
 from reports.load import Comparison
+from reports.metrics import Row
 from reports.numbers import ABSENT, SPACE, fixed, rounded, share, with_unit
 from reports.words import place
 
@@ -25,16 +26,20 @@ def _ratio(value: float | None) -> str:
     return fixed(value, _DECIMALS)
 
 
-def _dominance_tables(comparison: Comparison, quantity: str) -> tuple[Table, ...]:
-    """Return the ratio at the shown cells, a line per variant and row j."""
+def _dominance_tables(comparison: Comparison, quantity: str, model: str = "3D") -> tuple[Table, ...]:
+    """Return the ratio of a model at the shown cells, a line per variant and row j; 2D where it has one."""
+
+    def value(row: Row | None) -> float | None:
+        return None if row is None else row.reference if model == "3D" else row.rom
+
     tables = []
     for cells in chunks(comparison.i):
         rows = [
-            (variant, str(j), *(_ratio(row.reference if row else None) for row in found))
+            (variant, str(j), *(_ratio(value(row)) for row in found))
             for variant in comparison.variants
             for j in comparison.rows_of(variant)
             for found in ([comparison.metrics.find(variant, quantity, "value", i, j) for i in cells],)
-            if any(found)
+            if any(value(row) is not None for row in found)
         ]
         if rows:
             columns = (
@@ -48,10 +53,11 @@ def _dominance_tables(comparison: Comparison, quantity: str) -> tuple[Table, ...
                 for column, i in enumerate(cells)
                 if comparison.calcified(variant, i, int(j))
             )
-            caption = f"Largest {_RATIOS[quantity]} of 3D over the ray and the cycle at the shown cells." + (
-                " Shaded: inside the calcification." if marked else ""
+            caption = (
+                f"Largest {_RATIOS[quantity]} of {model} over the ray and the cycle at the shown cells."
+                + (" Shaded: inside the calcification." if marked else "")
             )
-            key = f"{quantity.replace('_', '-')}-{cells[0]}"
+            key = f"{quantity.replace('_', '-')}-{cells[0]}" + ("" if model == "3D" else "-2d")
             tables.append(Table(key, caption, columns, tuple(rows), 0, marked, "inside the calcification"))
     return tuple(tables)
 
@@ -104,6 +110,7 @@ def dominance_section(comparison: Comparison) -> Section:
         blocks.append(largest)
     for quantity in _RATIOS:
         blocks += _dominance_tables(comparison, quantity)
+        blocks += _dominance_tables(comparison, quantity, "2D")
     return Section("dominance", "Axial dominance", tuple(blocks))
 
 

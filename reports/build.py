@@ -3,8 +3,10 @@
 import os
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
+from reports.ablation import ablation_section
 from reports.content import report
 from reports.drawn import draw, helper
 from reports.gallery import Entry, entry, gallery_place, render_gallery
@@ -21,7 +23,7 @@ def write_reports(directory: Path) -> tuple[Path, Path]:
     Parameters
     ----------
     directory : Path
-        Holds comparison.nc, metrics.json and provenance.json.
+        Holds comparison.nc, metrics.json and provenance.json, and ablation.json if there is one.
 
     Returns
     -------
@@ -65,6 +67,9 @@ def _write_reports(directory: Path) -> Entry:
     with helper() as second:
         comparison = load(directory)
         content = report(comparison)
+        bought = ablation_section(directory)
+        if bought is not None:  # before the provenance
+            content = replace(content, sections=(*content.sections[:-1], bought, content.sections[-1]))
         drawings = draw({figure.key: figure.drawing for figure in content.figures()}, second)
     with ThreadPoolExecutor(max_workers=1) as pool:  # typst works outside the interpreter's lock
         pdf = pool.submit(render_pdf, content, drawings)

@@ -10,6 +10,7 @@ from cases.errors import CaseError
 from solver.diagnostics import Limits
 from solver.errors import SolverError
 from solver.files import check_folder
+from solver.locality import locality_warning
 from solver.progress import progress_bar
 from solver.run import pieces_folder, run_identity, run_to_file
 
@@ -63,6 +64,9 @@ def main() -> int:
         kept = pieces_folder(arguments.output)
         print(f"interrupted; --resume goes on from the last piece in {kept}", file=sys.stderr)
         return INTERRUPTED
+    warning = locality_warning(done.get("wall_locality_error"))
+    if warning:
+        print(f"warning: {warning}", file=sys.stderr)
     print(f"{arguments.output}: {done['steps']} steps of at most {done['time_step_s']:.6g} s")
     for name in vars(Limits()):
         value = done["largest"][name]

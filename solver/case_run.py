@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from cases.schema import Case
 from solver.from_case import model_of
 from solver.godunov_case import walk_godunov
+from solver.locality import wall_locality_error, widest
 from solver.model import Model
 from solver.result import cell_dataset
 from solver.semi_implicit_case import walk_semi_implicit
@@ -55,4 +56,8 @@ def run_case(case: Case, times: ArrayLike, progress: Progress | None = None) -> 
             progress(stop.time, float(wanted[-1]))
     longest = max(stop.longest_step for stop in stops)
     found = counts(case, stops[-1].steps, stops[-1].sweeps, longest)
-    return cell_dataset(model, history_of(stops)).assign_attrs(found)
+    history = history_of(stops)
+    error = wall_locality_error(case, model.section_wall, widest(history.pressure))
+    if error is not None:
+        found["wall_locality_error"] = error
+    return cell_dataset(model, history).assign_attrs(found)

@@ -36,6 +36,8 @@ def columns_of(model: Model, state: State) -> Columns:
 
 def outlet_area(model: Model, pressure: Floats) -> Floats:
     """Return A at pressures (n_phi,) behind the last cells, m²."""
+    if model.section_wall is not None:
+        return np.asarray(model.section_wall.last.area(pressure[:1])[0])
     table = model.wall_table
     if table is None:
         return area_from_pressure(pressure, model.stiffness[-1], model.radius, model.reference_pressure)

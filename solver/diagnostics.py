@@ -189,6 +189,8 @@ def last_interval_weights(times: Floats) -> Floats:
 
 def area_slope(model: Model, cells: Columns) -> Floats:
     """dA/dP of every cell, (n_x, n_phi), m²/Pa."""
+    if model.section_wall is not None:
+        return model.section_wall.area_and_slope(cells.pressure[:, 0])[1]
     table = model.wall_table
     if table is None:
         return np.asarray(2 * model.radius**2 * np.sqrt(cells.area) / model.stiffness)
@@ -201,7 +203,7 @@ def area_slope(model: Model, cells: Columns) -> Floats:
 def wall_energy(model: Model, cells: Columns) -> Floats:
     """∫P dA from the reference area to A, (n_x, n_phi), J/m per unit of ½dφ."""
     start, rest = model.reference_pressure, model.radius
-    if model.wall_table is None:
+    if model.wall_table is None and model.section_wall is None:
         radius, widened = np.sqrt(cells.area), cells.area - rest**2
         stretched = model.stiffness / rest**2 * (2 / 3 * (radius**3 - rest**3) - rest * widened)
         return np.asarray(stretched + start * widened)

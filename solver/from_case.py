@@ -1,4 +1,4 @@
-"""From a checked case to the model that the solver runs; its wall is in :mod:`solver.wall_from_case`."""
+"""From a checked case to the model that the solver runs; its wall is in :mod:`solver.walls_of_case`."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,8 @@ from solver.diagnostics import Limits, Monitor
 from solver.grid import Grid
 from solver.model import Model, State, uniform_state
 from solver.steady import steady_state
-from solver.wall_from_case import patch_of, wall_on_grid
+from solver.wall_from_case import patch_of
+from solver.walls_of_case import walls_of
 from solver.waveform import FourierSeries, Ramped, Signal, Waveform, constant
 
 OUTPUTS_PER_CYCLE = 100  # where the case states no output_interval
@@ -89,7 +90,7 @@ def model_of(case: Case) -> Model:
         For parameters outside what the equations allow.
     """
     grid = grid_of(case)
-    wall = wall_on_grid(case, grid)
+    walls = walls_of(case, grid)
     settings = case.solver
     exponent = settings.profile_exponent if isinstance(settings, SemiImplicitSolver) else None
     return Model(
@@ -97,12 +98,13 @@ def model_of(case: Case) -> Model:
         radius=case.geometry.radius,
         density=case.blood.density,
         viscosity=case.blood.viscosity,
-        reference_pressure=wall.reference_pressure,
-        stiffness=wall.stiffness,
+        reference_pressure=walls.reference_pressure,
+        stiffness=walls.stiffness,
         inlet=inlet_of(case),
         outlet=outlet_of(case),
-        wall_table=wall.table,
+        wall_table=walls.of_rows,
         fixed_exponent=exponent,
+        section_wall=walls.of_sections,
     )
 
 

@@ -41,6 +41,11 @@ def _usable(folder: Path) -> bool:
     return os.access(folder, os.W_OK | os.X_OK)
 
 
+def usable_folder(name: str) -> Path | None:
+    """First place for cached files of this kind that can be written to, made; None if there is none."""
+    return next((place / name for place in _candidates() if _usable(place / name)), None)
+
+
 def keep_kernels() -> None:
     """Tell numba where to keep compiled kernels; call before a module with kernels is imported.
 
@@ -49,8 +54,6 @@ def keep_kernels() -> None:
     if "NUMBA_CACHE_DIR" in os.environ:
         return
     root = Path(__file__).parents[1]
-    digest = sources_digest(root / folder for folder in KERNELS)
-    for candidate in _candidates():
-        if _usable(candidate / digest):
-            numba.config.CACHE_DIR = str(candidate / digest)  # type: ignore[attr-defined]
-            return
+    folder = usable_folder(sources_digest(root / folder for folder in KERNELS))
+    if folder is not None:
+        numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]

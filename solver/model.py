@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from solver.boundary import Inlet, Outlet
 from solver.errors import ModelError
 from solver.grid import Grid
+from solver.section_wall import SectionWall
 from solver.wall import area_from_pressure, pressure_from_area
 from solver.wall_table import WallTable
 
@@ -38,6 +39,8 @@ class Model:
         R(P) of a nonlinear wall; None for P = P₀ + β (R − R₀)/R₀².
     fixed_exponent : float or None
         γ everywhere, for the 1D model (n_phi = 1); None for the continuity closure.
+    section_wall : SectionWall or None
+        A(P) where all rows of a section share one pressure; None where each row has its own.
     """
 
     grid: Grid
@@ -50,6 +53,7 @@ class Model:
     outlet: Outlet
     wall_table: WallTable | None = None
     fixed_exponent: float | None = None
+    section_wall: SectionWall | None = None
 
     def __post_init__(self) -> None:
         shape = (self.grid.n_x, self.grid.n_phi)
@@ -59,6 +63,8 @@ class Model:
             raise ModelError("stiffness must be finite and positive in every cell")
         if self.wall_table is not None and self.wall_table.values.shape[:2] != shape:
             raise ModelError(f"the wall's table has cells {self.wall_table.values.shape[:2]}, not {shape}")
+        if self.section_wall is not None and self.section_wall.shape != shape:
+            raise ModelError(f"the sections' wall has cells {self.section_wall.shape}, not {shape}")
         for name in ("radius", "density"):
             if not (np.isfinite(getattr(self, name)) and getattr(self, name) > 0):
                 raise ModelError(f"{name} = {getattr(self, name)}; allowed: positive and finite")
@@ -84,12 +90,18 @@ class Model:
             Where the lumen collapses, or beyond the wall's table.
         """
         everywhere = np.broadcast_to(np.asarray(pressure, dtype=float), self.stiffness.shape)
+        if self.section_wall is not None:
+            return self.section_wall.area(everywhere.mean(axis=1))
         if self.wall_table is not None:
             return self.wall_table.area(everywhere)
         return area_from_pressure(everywhere, self.stiffness, self.radius, self.reference_pressure)
 
     def pressure(self, area: Floats) -> Floats:
         """P in every cell, (..., n_x, n_phi), Pa: the inverse of :meth:`area`."""
+        if self.section_wall is not None:
+            flat = area.reshape(-1, *self.stiffness.shape)
+            sections = np.stack([self.section_wall.pressure(one) for one in flat])
+            return np.broadcast_to(sections[..., None], flat.shape).reshape(area.shape)
         if self.wall_table is not None:
             return self.wall_table.pressure(area)
         return pressure_from_area(area, self.stiffness, self.radius, self.reference_pressure)

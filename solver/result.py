@@ -32,7 +32,10 @@ def described(name: str, values: NDArray[np.float64]) -> xr.Variable:
 
 
 class CellHistory(NamedTuple):
-    """States at cell centres: times (n,), s; A, m², Q, m³/s, P, Pa, γ (n, n_x, n_phi); diagnostics (n,)."""
+    """States at cell centres: times (n,), s; A, m², Q, m³/s, P, Pa, γ (n, n_x, n_phi); diagnostics (n,).
+
+    W, m²/s, (n, n_x, n_phi), where rows exchange blood.
+    """
 
     times: NDArray[np.float64]
     area: NDArray[np.float64]
@@ -40,6 +43,7 @@ class CellHistory(NamedTuple):
     pressure: NDArray[np.float64]
     exponent: NDArray[np.float64]
     diagnostics: dict[str, NDArray[np.float64]]
+    azimuthal_flux: NDArray[np.float64] | None = None
 
 
 def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
@@ -48,9 +52,9 @@ def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        pressure, radius, mean_velocity, profile_exponent, sector_flow_rate on (time, x, phi);
-        section_flow_rate, section_pressure on (time, x); wall_stiffness on (x, phi); the diagnostics on
-        (time). SI.
+        pressure, radius, mean_velocity, profile_exponent, sector_flow_rate on (time, x, phi), and
+        azimuthal_flux where rows exchange blood; section_flow_rate, section_pressure on (time, x);
+        wall_stiffness on (x, phi); the diagnostics on (time). SI.
     """
     sector = 0.5 * model.grid.dphi * cells.flow
     fields = {
@@ -64,6 +68,8 @@ def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
         "wall_stiffness": model.stiffness,
         **cells.diagnostics,
     }
+    if cells.azimuthal_flux is not None:
+        fields["azimuthal_flux"] = cells.azimuthal_flux
     dataset = coordinates(cells.times, model.grid.x, model.grid.phi)
     dataset = dataset.assign({name: described(name, values) for name, values in fields.items()})
     return dataset.assign_attrs(Conventions=CONVENTIONS)

@@ -15,6 +15,7 @@ from typing import Any
 
 import netCDF4
 import numpy as np
+from numpy.typing import NDArray
 
 from cases.schema import Case
 from solver.case_run import counts, walk
@@ -22,12 +23,15 @@ from solver.diagnostics import Diagnostics
 from solver.errors import SolverError
 from solver.files import write_netcdf
 from solver.from_case import default_output_times, model_of
+from solver.locality import wall_locality_error, widest
 from solver.model import Model
 from solver.result import CellHistory, cell_dataset
 from solver.simulate import Progress
 from solver.walk import Kept, Stop, history_of
 
 PIECE = 25  # states
+
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -123,9 +127,12 @@ def run_to_file(
             piece = Piece(history_of(taken), stop.steps - steps, stop.sweeps - sweeps, longest, stop.kept)
             _write(folder / f"{number:08d}.npz", piece)
             taken, steps, sweeps = [], stop.steps, stop.sweeps
-    found = _join(case, model, sorted(folder.glob("*.npz")), result, attributes)
+    paths = sorted(folder.glob("*.npz"))
+    error = wall_locality_error(case, model.section_wall, _widest_of(paths))
+    told = {} if error is None else {"wall_locality_error": error}
+    found = _join(case, model, paths, result, attributes | told)
     shutil.rmtree(folder)
-    return found
+    return found | told
 
 
 def _prepare(folder: Path, identity: str, resume: bool) -> Path:
@@ -146,12 +153,15 @@ def _prepare(folder: Path, identity: str, resume: bool) -> Path:
 
 
 _ARRAYS = ("times", "area", "flow", "pressure", "exponent")
+_CROSSING = "azimuthal_flux"
 _NUMBERS = ("steps", "sweeps", "longest_step")
 
 
 def _write(path: Path, piece: Piece) -> None:
     values = {name: getattr(piece.cells, name) for name in _ARRAYS}
     values |= {name: np.asarray(getattr(piece, name)) for name in _NUMBERS}
+    if piece.cells.azimuthal_flux is not None:
+        values[_CROSSING] = piece.cells.azimuthal_flux
     values |= {f"diagnostic_{name}": found for name, found in piece.cells.diagnostics.items()}
     values |= {f"kept_{name}": found for name, found in piece.kept.items()}
     partial = path.with_suffix(".part")
@@ -168,11 +178,17 @@ def _write(path: Path, piece: Piece) -> None:
 def _read(path: Path) -> Piece:
     with np.load(path) as stored:
         diagnostics = {name: stored[f"diagnostic_{name}"] for name in Diagnostics._fields}
-        arrays = {name: stored[name] for name in _ARRAYS}
+        arrays = {name: stored[name] for name in (*_ARRAYS, _CROSSING) if name in stored.files}
         cells = CellHistory(**arrays, diagnostics=diagnostics)
         numbers = {name: stored[name].item() for name in _NUMBERS}
         names = [name for name in stored.files if name.startswith("kept_")]
         return Piece(cells, **numbers, kept={name.removeprefix("kept_"): stored[name] for name in names})
+
+
+def _widest_of(paths: list[Path]) -> Floats:
+    """Section pressures at the instant of a run at which they vary most along the artery, Pa, (n_x,)."""
+    profiles = [widest(_read(path).cells.pressure) for path in paths]
+    return max(profiles, key=lambda profile: float(np.ptp(profile)))
 
 
 def _join(

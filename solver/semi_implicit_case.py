@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cases.schema import Case
+from solver.cross_flow import azimuthal_flux
 from solver.from_case import error_tolerance, initial_state, monitor_of
 from solver.model import Model, State
 from solver.simulate import Snapshot, snapshots
@@ -36,7 +37,17 @@ def walk_semi_implicit(
             snapshot.sweeps,
             snapshot.longest_step,
             {**_kept(snapshot), "history": monitor.history},
+            _azimuthal_flux(model, snapshot.state),
         )
+
+
+def _azimuthal_flux(model: Model, state: State) -> NDArray[np.float64] | None:
+    """W of the cells, m²/s; None where rows keep their own blood."""
+    if model.section_wall is None or state.pressure is None:
+        return None
+    return azimuthal_flux(
+        model.section_wall, model.grid.dx, model.grid.dphi, state.pressure[:, 0], state.flow
+    )
 
 
 def _kept(snapshot: Snapshot) -> Kept:

@@ -12,7 +12,7 @@ from solver.diagnostics import Columns, Diagnostics, Limits, Monitor, by_name
 from solver.errors import ModelError, NotConverged, RunFailure
 from solver.model import Model, State
 from solver.steady import steady_state
-from solver.stepper import Stepper
+from solver.stepping import AnyStepper, stepper_of
 
 SHORTEST_SHARE = 1e-6  # of the largest Δt: below it error control gives up
 SLOWEST_GROWTH, FASTEST_GROWTH = 0.2, 2.0  # of Δt from one step to the next
@@ -125,7 +125,7 @@ def snapshots(
     times = checked_times(output_times, time_step)
     start = initial.copy() if initial else steady_state(model, float(model.inlet.signal(times[0])))
     start.time = float(times[0])
-    stepper = Stepper(model, start)
+    stepper = stepper_of(model, start)
     wanted = time_step if first_step is None else first_step
     watch = monitor or Monitor(model, Limits())
     defect = longest = 0.0
@@ -149,7 +149,7 @@ def snapshots(
 
 
 def _adaptive(
-    stepper: Stepper, begin: float, end: float, largest: float, wanted: float, tolerance: float
+    stepper: AnyStepper, begin: float, end: float, largest: float, wanted: float, tolerance: float
 ) -> tuple[float, float, float]:
     """Go from begin to end with the local error of each step below ``tolerance``.
 
@@ -195,7 +195,7 @@ def _adaptive(
     return total, longest, min(wanted, largest)
 
 
-def _doubled(stepper: Stepper, time: float, step: float) -> tuple[float, float]:
+def _doubled(stepper: AnyStepper, time: float, step: float) -> tuple[float, float]:
     """Take two steps of Δt/2; mass defect, and the error estimated by comparison with one of Δt.
 
     The scheme is of second order, so a third of their difference estimates the error of the finer one.

@@ -8,7 +8,8 @@ from solver.boundary import NonReflectingOutlet, ResistanceOutlet
 from solver.errors import ModelError, NotConverged, RunFailure
 from solver.model import Model, State, uniform_state
 from solver.schemes.layout import REST_VELOCITY
-from solver.stepper import Stepper, offsets
+from solver.stepper import offsets
+from solver.stepping import stepper_of
 
 FIRST_STEP, SHORTEST_STEP, LONGEST_STEP, GROWTH = 1e-3, 1e-5, 0.1, 1.5  # s, s, s, –
 MOST_STEPS = 20_000
@@ -55,7 +56,7 @@ def steady_state(model: Model, inlet_value: float, start: State | None = None) -
         NotConverged when 20,000 steps do not suffice, or what a step of 10 µs raises; the message says that
         this happened on the way to the steady state.
     """
-    stepper = Stepper(model, start.copy() if start else _guess(model, inlet_value))
+    stepper = stepper_of(model, start.copy() if start else _guess(model, inlet_value))
     value, offset = np.array([inlet_value]), offsets(model, [0.0])
     time_step, longest = FIRST_STEP, LONGEST_STEP
     state = stepper.state()

@@ -1,5 +1,7 @@
 """A state in the kernels' arrays, and what moves it."""
 
+from typing import TypedDict
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -112,14 +114,24 @@ class Stepper:
         self.steps += steps
         self.sweeps += sweeps
         if status != layout.OK:
-            cell = (i + 1, j + 1) if status in CELL_FAILURES else (0, 0)
-            raise FAILURES[status](self.time + time_step, *cell)
+            raise failure(status, self.time + time_step, i, j)
         if not (np.all(np.isfinite(self._fields.area)) and np.all(np.isfinite(self._fields.flow))):
             raise NotFinite(self.time, 0, 0)
-        inflow, outflow = self._workspace.exchanged
         change = lumen_volume(self.model, self._fields.area) - before
-        rest = layout.REST_VELOCITY * np.pi * self.model.radius**2 * time_step
-        return float((inflow - outflow - change) / max(abs(inflow), abs(outflow), rest))
+        return mass_defect(self.model, self._workspace.exchanged, change, time_step)
+
+
+def failure(status: int, time: float, i: int, j: int) -> RunFailure:
+    """Error that names a kernel's status, time (s) and cell, which kernels count from 0."""
+    cell = (i + 1, j + 1) if status in CELL_FAILURES else (0, 0)
+    return FAILURES[status](time, *cell)
+
+
+def mass_defect(model: Model, exchanged: Floats, change: float, time_step: float) -> float:
+    """Inflow − outflow − change of volume over the inflow; of volumes in m³, 0 at rest."""
+    inflow, outflow = exchanged
+    rest = layout.REST_VELOCITY * np.pi * model.radius**2 * time_step
+    return float((inflow - outflow - change) / max(abs(inflow), abs(outflow), rest))
 
 
 def lumen_volume(model: Model, area: Floats) -> float:
@@ -139,9 +151,18 @@ def offsets(model: Model, times: ArrayLike) -> Floats:
     return np.zeros(times.shape)
 
 
-def parameters(model: Model) -> layout.Parameters:
-    """Parameters of the kernels from a model."""
-    table = model.wall_table
+class OutletNumbers(TypedDict):
+    """What kernels must know of an outlet; see :class:`solver.schemes.layout.Parameters`."""
+
+    outlet_kind: int
+    resistance: float
+    distal_resistance: float
+    capacitance: float
+    venous_pressure: float
+
+
+def outlet_numbers(model: Model) -> OutletNumbers:
+    """Outlet of a model for the kernels; a prescribed pressure is an offset without resistance."""
     outlet = model.outlet
     kind, resistance, distal, capacitance, venous = layout.SECTION_RESISTANCE, 0.0, 1.0, 1.0, 0.0
     if isinstance(outlet, ResistanceOutlet):
@@ -154,6 +175,18 @@ def parameters(model: Model) -> layout.Parameters:
         venous = outlet.venous_pressure
     elif isinstance(outlet, NonReflectingOutlet):
         kind = layout.NON_REFLECTING
+    return OutletNumbers(
+        outlet_kind=kind,
+        resistance=float(resistance),
+        distal_resistance=float(distal),
+        capacitance=float(capacitance),
+        venous_pressure=float(venous),
+    )
+
+
+def parameters(model: Model) -> layout.Parameters:
+    """Parameters of the kernels from a model."""
+    table = model.wall_table
     compliance = layout.aligned((model.grid.n_x, model.grid.n_phi))
     compliance[...] = model.radius**2 / model.stiffness
     return layout.Parameters(
@@ -169,11 +202,7 @@ def parameters(model: Model) -> layout.Parameters:
         table_step=1.0 if table is None else float(table.step),
         fixed_exponent=float(model.fixed_exponent or 0.0),
         inlet_kind=INLETS[model.inlet.kind],
-        outlet_kind=kind,
-        resistance=float(resistance),
-        distal_resistance=float(distal),
-        capacitance=float(capacitance),
-        venous_pressure=float(venous),
+        **outlet_numbers(model),
     )
 
 

@@ -30,6 +30,8 @@ class Stop(NamedTuple):
         Longest Δt since the stop before, s.
     kept : dict of ndarray
         What the scheme needs to go on from here, by name.
+    azimuthal_flux : ndarray (n_x, n_phi) or None
+        W of the cells where rows exchange blood, m²/s.
     """
 
     time: float
@@ -39,6 +41,7 @@ class Stop(NamedTuple):
     sweeps: int
     longest_step: float
     kept: Kept
+    azimuthal_flux: Floats | None = None
 
 
 def history_of(stops: Sequence[Stop]) -> CellHistory:
@@ -54,6 +57,7 @@ def history_of(stops: Sequence[Stop]) -> CellHistory:
     if missing.size:
         n, i, j = (int(k) for k in missing[0])
         raise NoAdmissibleProfile(stops[n].time, i + 1, j + 1)
+    crossing = [stop.azimuthal_flux for stop in stops if stop.azimuthal_flux is not None]
     return CellHistory(
         times=np.array([stop.time for stop in stops]),
         area=np.array([stop.columns.area[1:-1] for stop in stops]),
@@ -61,4 +65,5 @@ def history_of(stops: Sequence[Stop]) -> CellHistory:
         pressure=np.array([stop.columns.pressure[1:-1] for stop in stops]),
         exponent=exponent,
         diagnostics=by_name([stop.diagnostics for stop in stops]),
+        azimuthal_flux=np.array(crossing) if crossing else None,
     )

@@ -8,7 +8,7 @@ from scipy.interpolate import PchipInterpolator
 
 from cases.calcification import AxialTransition, LocalCalcification, NoCalcification, PatchTransition
 from cases.schema import Case
-from cases.wall import HomogeneousWall, LayeredWall, TableWall
+from cases.wall import HomogeneousWall, LayeredWall, TableWall, row_wall
 from solver.calcification import Patch, calcified_stiffness, scaled_distance
 from solver.errors import ModelError
 from solver.finite_strain import inflation_curve
@@ -46,7 +46,7 @@ def patch_of(case: Case) -> Patch | None:
     )
 
 
-def _modulus(case: Case, grid: Grid, healthy: float) -> Floats:
+def modulus_on_grid(case: Case, grid: Grid, healthy: float) -> Floats:
     """Young's modulus of a calcifying material in every cell, Pa."""
     stated, patch = case.calcification, patch_of(case)
     if isinstance(stated, NoCalcification) or patch is None:
@@ -72,25 +72,27 @@ def healthy_and_calcified(case: Case) -> tuple[float, float]:
 
 
 def wall_on_grid(case: Case, grid: Grid) -> WallOnGrid:
-    """Wall of a case.
+    """Wall of a case, row by row; of a membrane its base.
 
     Raises
     ------
     ModelError
         If the law is known for no pressure of interest.
     """
-    wall, geometry = case.wall, case.geometry
+    wall, geometry = row_wall(case.wall), case.geometry
     if isinstance(wall, LayeredWall):
         layers = [
             Layer(
                 layer.thickness,
-                _modulus(case, grid, layer.youngs_modulus) if layer.calcifies else layer.youngs_modulus,
+                modulus_on_grid(case, grid, layer.youngs_modulus)
+                if layer.calcifies
+                else layer.youngs_modulus,
             )
             for layer in wall.layers
         ]
         stiffness = layered_wall_stiffness(layers, geometry.radius, wall.poisson_ratio)
         return WallOnGrid(np.broadcast_to(stiffness, (grid.n_x, grid.n_phi)).copy(), wall.reference_pressure)
-    modulus = _modulus(case, grid, wall.youngs_modulus)
+    modulus = modulus_on_grid(case, grid, wall.youngs_modulus)
     if isinstance(wall, TableWall):
         return _tabulated(case, wall, modulus)
     if wall.law in WALL_LAWS:

@@ -6,6 +6,7 @@ from typing import Any
 from cases.case_file import CaseFile
 from cases.comparison import Band
 from cases.schema import Case
+from solver.locality import locality_warning
 from validation.alignment import WHOLE
 from validation.comparison import VariantRun
 from validation.instants import nearest_states, wanted_instants
@@ -51,6 +52,8 @@ def warnings_of(runs: Mapping[str, VariantRun]) -> list[str]:
         missed = [instant for instant in wanted if instant not in nearest_states(wanted, times)]
         if missed:
             found.append(f"{name}: no state of the reference is near {', '.join(missed)}: not tabulated")
+        warning = locality_warning(run.rom.description.get("wall_locality_error"))
+        found += [f"{name}: {warning}"] if warning else []
         if run.rom.cycle_change > PERIODIC:
             found.append(
                 f"{name}: the reduced model is not periodic yet: it changes by {run.rom.cycle_change:.1e} "

@@ -19,6 +19,7 @@ COLUMNS = [
 ]
 CELL_QUANTITIES = ("pressure", "radius", "mean_velocity", "sector_flow_rate", "profile_exponent")
 SECTION_QUANTITIES = ("section_flow_rate", "section_pressure")
+DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")
 
 Floats = NDArray[np.float64]
 
@@ -170,21 +171,25 @@ def check_rows(models: Models) -> Iterator[Row]:
         yield models.row(
             quantity, "largest", rom=float(np.max(np.abs(rom))), reference=float(np.max(np.abs(reference)))
         )
-    for quantity in ("backflow_fraction", "axial_dominance_radial", "axial_dominance_azimuthal"):
+    for quantity in ("backflow_fraction", *DOMINANCE):
         values = models.reference[quantity].to_numpy()
         place = np.unravel_index(int(np.argmax(values)), values.shape)
         cell = {"i": int(place[0]) + 1, "j": int(place[1]) + 1} if values.ndim == 2 else {}
-        yield models.row(quantity, "largest", reference=float(values.max()), **cell)
+        own = models.rom.get(quantity)
+        estimate = None if own is None else float(own.max())
+        yield models.row(quantity, "largest", reference=float(values.max()), rom=estimate, **cell)
 
 
 def dominance_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row]:
     """Axial dominance at the chosen cells (tables 3.10 and 3.11)."""
-    for quantity in ("axial_dominance_radial", "axial_dominance_azimuthal"):
+    for quantity in DOMINANCE:
         values = models.reference[quantity].to_numpy()
+        own = models.rom[quantity].to_numpy() if quantity in models.rom else None
         for i in cells[0]:
             for j in cells[1]:
                 ratio = float(values[i - 1, j - 1])
-                yield models.row(quantity, "value", i=int(i), j=int(j), reference=ratio)
+                estimate = None if own is None else float(own[i - 1, j - 1])
+                yield models.row(quantity, "value", i=int(i), j=int(j), rom=estimate, reference=ratio)
 
 
 def plane_rows(models: Models, checks: xr.Dataset) -> Iterator[Row]:
@@ -233,7 +238,11 @@ def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) ->
 
 def change_rows(rows: list[Row], baseline: str) -> Iterator[Row]:
     """Values and cycle quantities minus, and over, the baseline's: what calcification changes."""
-    kept = [row for row in rows if row.statistic in ("value", "cycle") and row.rom is not None]
+    kept = [
+        row
+        for row in rows
+        if row.statistic in ("value", "cycle") and row.rom is not None and row.quantity not in DOMINANCE
+    ]
     base = {(r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in kept if r.variant == baseline}
     for row in kept:
         other = base.get((row.quantity, row.statistic, row.i, row.j, row.t_s))

@@ -15,7 +15,16 @@ import pandas as pd
 from validation.errors import ValidationError
 
 MARK = "provenance.json"  # every finished result has one
-RESULT_FILES = {MARK, "comparison.nc", "metrics.csv", "metrics.json", "report.html", "report.pdf"}
+RESULT_FILES = {
+    MARK,
+    "ablation.csv",
+    "ablation.json",
+    "comparison.nc",
+    "metrics.csv",
+    "metrics.json",
+    "report.html",
+    "report.pdf",
+}
 
 
 def check_target(target: Path) -> None:

@@ -5,14 +5,19 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
-from cases.schema import Case
+from cases.schema import Case, MembraneWall
 from solver.case_run import run_case
+from solver.cross_flow import azimuthal_velocity, radial_velocity
 from solver.profiles import axis_ratio, shape
+from solver.walls_of_case import has_section_pressure
 from validation.alignment import Alignment
-from validation.derived import as_dataset
+from validation.derived import as_dataset, dominance
 from validation.rays import Rays
 from validation.reference import Progress
+
+Floats = NDArray[np.float64]
 
 COMPARED = (
     "pressure",
@@ -63,6 +68,7 @@ def run_reduced_model(
     axial = u[..., None] * shape(rays.y, gamma[..., None])
     axis = u * axis_ratio(gamma)
     values["axial_velocity"] = axial.astype(np.float32)
+    values |= _across(values, kept.get("azimuthal_flux"), rays)
     values["axis_velocity_spread"] = np.ptp(axis, axis=-1) / np.abs(axis).mean(axis=-1)
     first, last = dataset.sel(time=begin), dataset.sel(time=end)
     change = max(_relative_change(first[name], last[name]) for name in ("pressure", "section_flow_rate"))
@@ -70,12 +76,49 @@ def run_reduced_model(
         fields=as_dataset(values, rays, alignment.cycle_times),
         stiffness=dataset["wall_stiffness"],
         cycle_change=change,
-        description=_description(case, dataset) | {"cycle_change": change},
+        description=_description(case, dataset) | {"cycle_change": change} | _locality(dataset),
     )
+
+
+def _across(values: dict[str, Floats], flux: xr.DataArray | None, rays: Rays) -> dict[str, Floats]:
+    """v_r, and v_φ where rows exchange blood, with their ratios to v_x."""
+    radius, u, gamma = (values[name] for name in ("radius", "mean_velocity", "profile_exponent"))
+    crossing = None if flux is None else flux.to_numpy()
+    spacing = float(rays.x[1] - rays.x[0]), rays.dphi
+    radial = radial_velocity(radius, u, gamma, crossing, spacing, rays.y)
+    axial = values["axial_velocity"]
+    found: dict[str, Floats] = {
+        "radial_velocity": np.asarray(radial, dtype=np.float32),
+        "axial_dominance_radial": dominance(axial, radial),
+    }
+    if crossing is None:
+        return found
+    azimuthal = azimuthal_velocity(radius, gamma, crossing, rays.y)
+    return found | {
+        "azimuthal_flux": crossing,
+        "azimuthal_velocity": np.asarray(azimuthal, dtype=np.float32),
+        "axial_dominance_azimuthal": dominance(axial, azimuthal),
+    }
 
 
 def _relative_change(first: xr.DataArray, last: xr.DataArray) -> float:
     return float(np.max(np.abs(last - first)) / np.max(np.abs(first)))
+
+
+def _locality(dataset: xr.Dataset) -> dict[str, float]:
+    """Error of taking a membrane's section by itself, where the run tells one."""
+    name = "wall_locality_error"
+    return {name: float(dataset.attrs[name])} if name in dataset.attrs else {}
+
+
+def wall_words(case: Case) -> str:
+    """Wall law of a case; of a membrane with its base."""
+    return f"membrane on {case.wall.base}" if isinstance(case.wall, MembraneWall) else case.wall.law
+
+
+def pressure_of(case: Case) -> str:
+    """Tell what has a pressure of its own in a case: each row or each section."""
+    return "section" if has_section_pressure(case) else "row"
 
 
 def _description(case: Case, dataset: xr.Dataset) -> dict[str, Any]:
@@ -86,7 +129,8 @@ def _description(case: Case, dataset: xr.Dataset) -> dict[str, Any]:
         "time_step_s": dataset.attrs["time_step_s"],
         "steps": dataset.attrs["steps"],
         "cycles": case.solver.cycles,
-        "wall_law": case.wall.law,
+        "wall_law": wall_words(case),
+        "pressure": pressure_of(case),
         "closure": case.solver.closure,
         "viscosity_Pa_s": case.blood.viscosity,
     }

@@ -1,0 +1,114 @@
+"""The arrays that the scheme with one pressure a section works on (SI)."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from solver.schemes.layout import Array
+
+
+class Parameters(NamedTuple):
+    """Constants of a run.
+
+    Attributes
+    ----------
+    dx, dphi : float
+        m, rad.
+    density, kinematic_viscosity : float
+        ρ, kg/m³, and μ/ρ, m²/s.
+    table : ndarray (n_x, knots, 2, n_phi)
+        A (m²) and dA/dP (m²/Pa) of every cell at equidistant pressures.
+    sums : ndarray (n_x, knots, 2)
+        Their sums over φ.
+    table_start, table_step : float
+        First pressure of the table and spacing, Pa.
+    fixed_exponent : float
+        γ everywhere, or 0 for the continuity closure.
+    rest_flow : float
+        Q below which blood is at rest, m³/s.
+    inlet_kind, outlet_kind : int
+        See :mod:`solver.schemes.layout`.
+    resistance : float
+        R_res, or the Windkessel's R₁, Pa s/m³.
+    distal_resistance, capacitance, venous_pressure : float
+        The Windkessel's R₂, Pa s/m³, C, m³/Pa, and P_v, Pa.
+    """
+
+    dx: float
+    dphi: float
+    density: float
+    kinematic_viscosity: float
+    table: Array
+    sums: Array
+    table_start: float
+    table_step: float
+    fixed_exponent: float
+    rest_flow: float
+    inlet_kind: int
+    outlet_kind: int
+    resistance: float
+    distal_resistance: float
+    capacitance: float
+    venous_pressure: float
+
+
+class Fields(NamedTuple):
+    """The state that a step advances in place.
+
+    ``area`` A (n_x, n_phi), m²; ``flow`` Q (n_x + 1, n_phi), m³/s; ``pressure`` P (n_x + 2,), Pa: the
+    inlet's, the sections' and the outlet's; ``reservoir`` (1,), the Windkessel's P_c, Pa.
+    """
+
+    area: Array
+    flow: Array
+    pressure: Array
+    reservoir: Array
+
+
+class Workspace(NamedTuple):
+    """Scratch of a run."""
+
+    iterate_flow: Array  # faces: Q'
+    iterate_area: Array  # cells: A(P')
+    mean_area: Array  # cells: θ-weighted A
+    mean_flow: Array  # faces: θ-weighted Q
+    face_area: Array  # faces: θ-weighted, with periodic ghosts
+    velocity: Array  # faces: u, with periodic ghosts
+    alpha: Array  # faces
+    damping: Array  # faces: Δt S
+    flux: Array  # cells: αQ²/A
+    cross_flow: Array  # (n_x, n_phi + 1): W on the φ-faces of cells
+    residual: Array  # faces: momentum balance, then δQ
+    older_flow: Array  # faces: one step earlier, for the first iterate
+    oldest_flow: Array  # faces: two steps earlier
+    old_end_area: Array  # (2, n_phi): at inlet and outlet
+    end_area: Array  # (2, n_phi): of the iterate
+    scratch: Array  # (5, n_phi + 2)
+    iterate_pressure: Array  # (n_x + 2,)
+    older_pressure: Array
+    oldest_pressure: Array
+    old_area_sum: Array  # (n_x,): Σ A
+    area_sum: Array  # (n_x,): Σ A(P')
+    slope_sum: Array  # (n_x,): Σ dA/dP
+    mass: Array  # (n_x,): mass balance, then δP
+    flux_slope: Array  # (n_x,): θ ∂(αQ²/A)/∂Q, mean over φ
+    flow_sum: Array  # (n_x + 1,): Σ of the θ-weighted Q
+    old_flow_sum: Array  # (n_x + 1,): Σ Q
+    new_flow_sum: Array  # (n_x + 1,): Σ Q'
+    mean_damping: Array  # (n_x + 1,)
+    area_total: Array  # (n_x + 1,): Σ A on faces
+    total: Array  # (n_x + 1,): Σ of the momentum balance over φ
+    matrix: Array  # (3, n_x + 1): lower, middle, upper of the rows' advection
+    section_matrix: Array  # (3, n_x + 1): the same with the pressure eliminated
+    change: Array  # (n_x + 1,): δΣQ
+    exchanged: Array  # (2,): volumes that passed inlet and outlet since last reset, m³
+
+
+def workspace(n_x: int, n_phi: int) -> Workspace:
+    """Allocate the scratch of a run."""
+    cells, faces, ghosted, pair = (n_x, n_phi), (n_x + 1, n_phi), (n_x + 1, n_phi + 2), (2, n_phi)
+    shapes: list[tuple[int, ...]] = [faces, cells, cells, faces, ghosted, ghosted, faces, faces, cells]
+    shapes += [(n_x, n_phi + 1), faces, faces, faces, pair, pair, (5, n_phi + 2)]
+    shapes += [(n_x + 2,)] * 3 + [(n_x,)] * 5 + [(n_x + 1,)] * 6
+    shapes += [(3, n_x + 1)] * 2 + [(n_x + 1,), (2,)]
+    return Workspace(*(np.zeros(shape) for shape in shapes))

@@ -1,0 +1,46 @@
+"""The report's section on what each part of the model buys."""
+
+import json
+
+import pytest
+
+from reports import ReportError
+from reports.ablation import ablation_section
+
+ROW = {
+    "variant": "local",
+    "model": "membrane wall, section pressure",
+    "radius_rms": 0.0063,
+    "radius_max": -0.0178,
+    "pressure_rms": 0.0049,
+    "section_flow_rms": 0.016,
+    "sector_share_rms": 0.0092,
+    "sector_share_max": -0.035,
+    "thesis_sector_max": None,
+    "run_s": 0.5,
+    "failure": "",
+}
+
+
+def written(folder, *rows):
+    (folder / "ablation.json").write_text(json.dumps(rows))
+    return ablation_section(folder)
+
+
+def test_without_rows_there_is_no_section(tmp_path):
+    assert ablation_section(tmp_path) is None
+
+
+def test_a_row_a_model(tmp_path):
+    section = written(tmp_path, ROW, {**ROW, "model": "other", "failure": "the membrane buckles"})
+    first, second = section.blocks[1].rows
+    assert first[:4] == ("local", "membrane wall, section pressure", "+0.63\u00a0%", "−1.78\u00a0%")
+    assert first[-2:] == ("—", "0.50")
+    assert second[1] == "other (failed: the membrane buckles)"
+    assert len(first) == len(second) == len(section.blocks[1].columns)
+
+
+@pytest.mark.parametrize("change", [{"radius_rms": "small"}, {"model": 3}])
+def test_a_damaged_row_is_refused(tmp_path, change):
+    with pytest.raises(ReportError, match=r"ablation\.json: row 1"):
+        written(tmp_path, {**ROW, **change})

@@ -1,0 +1,109 @@
+"""From a case to the walls that the flow sees, and a coupled run from the command line."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from test_resume import assert_same_bytes, changed, run  # noqa: F401
+
+from cases.case_file import load_case_file
+from solver.case_run import run_case
+from solver.errors import ModelError
+from solver.from_case import default_output_times, model_of
+
+ROOT = Path(__file__).parents[2]
+THIN = "wall: {law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}"
+LAYERS = (
+    "layers: [{name: media, thickness: 0.3 mm, youngs_modulus: 0.9 MPa, calcifies: true}, "
+    "{name: adventitia, thickness: 0.2 mm, youngs_modulus: 0.4 MPa}]"
+)
+BASES = {
+    "thin": "base: thin, youngs_modulus: 0.6 MPa",
+    "thick": "base: thick, youngs_modulus: 0.6 MPa",
+    "layered": f"base: layered, {LAYERS}",
+    "saint_venant_kirchhoff": "base: saint_venant_kirchhoff, youngs_modulus: 0.6 MPa",
+    "neo_hookean": "base: neo_hookean, youngs_modulus: 0.6 MPa",
+}
+
+
+def edited(case_file, wall, pressure="section"):
+    changed(case_file, THIN, f"wall: {{{wall}, poisson_ratio: 0.48}}")
+    changed(case_file, "closure: average", f"closure: average, pressure: {pressure}")
+    return case_file
+
+
+@pytest.mark.parametrize("base", list(BASES))
+def test_where_it_is_uniform_a_membrane_is_its_base(case_file, base):
+    """To the accuracy of a polynomial in p, for bases that are not linear."""
+    text = case_file.read_text()
+    edited(case_file, f"law: membrane, {BASES[base]}")
+    membrane = model_of(load_case_file(case_file).variants["healthy"])
+    case_file.write_text(text)
+    edited(case_file, BASES[base].replace("base", "law", 1))
+    rows = model_of(load_case_file(case_file).variants["healthy"])
+    for pressure in (8e3, 16e3):
+        assert np.allclose(membrane.area(pressure), rows.area(pressure), rtol=1e-6, atol=0)
+
+
+def test_a_membrane_with_a_pressure_each_row(case_file):
+    edited(case_file, f"law: membrane, {BASES['thick']}", "row")
+    case = load_case_file(case_file).variants["patch"]
+    result = run_case(case, default_output_times(case))
+    assert "azimuthal_flux" not in result
+    assert "wall_locality_error" not in result.attrs
+    radius = result["radius"].isel(time=-1, x=6)
+    assert float(radius.max() - radius.min()) > 0.05e-3
+
+
+def test_the_coupled_run_says_what_crosses_and_how_local_its_wall_is(case_file):
+    edited(case_file, f"law: membrane, {BASES['thick']}")
+    case = load_case_file(case_file).variants["patch"]
+    result = run_case(case, default_output_times(case))
+    assert result["azimuthal_flux"].dims == ("time", "x", "phi")
+    assert result["azimuthal_flux"].attrs["units"] == "m2 s-1"
+    assert 0 < result.attrs["wall_locality_error"] < 1e-3
+    assert np.ptp(result["pressure"].to_numpy(), axis=-1).max() == 0.0
+
+
+def test_a_negative_load_is_not_judged(case_file):
+    edited(case_file, f"law: membrane, reference_pressure: 20 kPa, {BASES['thick']}")
+    case = load_case_file(case_file).variants["healthy"]
+    with pytest.raises(ModelError, match="known from"):  # 11 kPa is beyond what is continued below P₀
+        run_case(case, default_output_times(case))
+
+
+@pytest.mark.parametrize("control", ["", " error_tolerance: 1e-4,"])
+def test_an_interrupted_coupled_run_goes_on_bit_by_bit(case_file, run, control):  # noqa: F811
+    edited(case_file, f"law: membrane, {BASES['thick']}")
+    changed(case_file, "closure: average", f"closure: average,{control}".rstrip(","))
+    folder = case_file.parent
+    arguments = [case_file, "--variant", "patch", "--output"]
+    assert run(*arguments, folder / "whole.nc")[0] == 0
+    assert run(*arguments, folder / "parts.nc", after=10)[0] == 130
+    assert run(*arguments, folder / "parts.nc", "--resume")[0] == 0
+    assert_same_bytes(folder / "whole.nc", folder / "parts.nc")
+
+
+def test_the_command_warns_where_a_section_is_not_local(case_file, monkeypatch):
+    edited(case_file, f"law: membrane, {BASES['thick']}")
+    changed(
+        case_file,
+        "{length: 15 mm, radius: 2.5 mm, wall_thickness: 0.5 mm}",
+        "{length: 2 m, radius: 2.5 mm, wall_thickness: 0.5 mm}",
+    )
+    changed(case_file, "viscosity: 0.003 Pa s", "viscosity: 0.05 Pa s")
+    output = case_file.parent / "long.nc"
+    done = subprocess.run(  # noqa: S603
+        [sys.executable, "-m", "solver", case_file, "--variant", "patch", "--output", output],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    with xr.open_dataset(output) as result:
+        far = result.attrs["wall_locality_error"] > 1e-3
+    assert ("docs/coupled_model.md" in done.stderr) == far

@@ -1,0 +1,58 @@
+"""The models between the thesis's and the coupled one, each a change of one thing, from any case."""
+
+from cases.schema import Case
+from cases.solver_settings import SemiImplicitSolver
+from cases.wall import HomogeneousWall, MembraneWall, OwnWall, TableWall, row_wall
+from validation.errors import ValidationError
+
+LINEAR = ("thin", "thick")
+
+
+def models_between(case: Case) -> dict[str, Case]:
+    """Return a case by wall and pressure: rows of springs, a membrane, one pressure a section, both.
+
+    Parameters
+    ----------
+    case : Case
+        Of the semi-implicit scheme, with any wall.
+
+    Returns
+    -------
+    dict of str to Case
+        By words for people, from the thesis's model to the coupled one.
+
+    Raises
+    ------
+    ValidationError
+        For another scheme, or a wall without a Poisson's ratio.
+    """
+    solver = case.solver
+    if not isinstance(solver, SemiImplicitSolver):
+        raise ValidationError("solver.scheme: the models compared need semi_implicit")
+    own, whole = row_wall(case.wall), _membrane(case.wall)
+    walls: dict[str, OwnWall | MembraneWall] = {
+        law: _of_law(own, law) for law in LINEAR if isinstance(own, HomogeneousWall) and own.law in LINEAR
+    }
+    walls |= {own.law: own, "membrane": whole}
+    by_rows, by_sections = (solver.model_copy(update={"pressure": kind}) for kind in ("row", "section"))
+    found = {
+        f"{name} wall, row pressure": case.model_copy(update={"wall": wall, "solver": by_rows})
+        for name, wall in walls.items()
+    }
+    for name in (own.law, "membrane"):
+        changed = {"wall": walls[name], "solver": by_sections}
+        found[f"{name} wall, section pressure"] = case.model_copy(update=changed)
+    return found
+
+
+def _of_law(wall: HomogeneousWall, law: str) -> HomogeneousWall:
+    return wall.model_copy(update={"law": law})
+
+
+def _membrane(wall: OwnWall | MembraneWall) -> MembraneWall:
+    if isinstance(wall, MembraneWall):
+        return wall
+    if isinstance(wall, TableWall):
+        raise ValidationError("wall: a membrane on a table needs a poisson_ratio; state law membrane")
+    stated = {key: getattr(wall, key) for key in type(wall).model_fields}
+    return MembraneWall.model_construct(None, **(stated | {"law": "membrane", "base": wall.law}))
