@@ -78,7 +78,8 @@ class Mapper:
         chord = self._radius(points, rays.phi, self._chord_faces, chord=True)
         rim = self._radius(points, rays.rim, self._rim_faces, chord=True)
         targets = rays.points(chord)
-        missing = interpolation.locate(mesh.lumen, points, targets.reshape(-1, 3), self._located)
+        shapes = interpolation.deformed(mesh.lumen, points)
+        missing = interpolation.locate(mesh.lumen, shapes, targets.reshape(-1, 3), self._located)
         if missing >= 0:
             i, j, k = np.unravel_index(missing, rays.shape)
             raise UnusableReferenceError(
@@ -86,8 +87,7 @@ class Mapper:
                 f"r/R = {rays.y[k]:.3g}"
             )
         nodal = np.column_stack([velocity, pressure])
-        values = np.empty((*rays.shape, 4))
-        interpolation.interpolate(mesh.lumen, nodal, self._located, values.reshape(-1, 4))
+        values = interpolation.interpolate(mesh.lumen, nodal, self._located).reshape(*rays.shape, 4)
         return MappedState(
             radius=radius,
             chord=chord,
@@ -102,8 +102,7 @@ class Mapper:
 
     def _radius(self, points: Floats, phi: Floats, guess: NDArray[np.int64], chord: bool) -> Floats:
         rays = self.rays
-        radius = np.empty(guess.shape)
-        interface_radius(points, self.mesh.interface, rays.x, phi, chord, guess, radius)
+        radius = interface_radius(points, self.mesh.interface, rays.x, phi, chord, guess)
         missed = np.argwhere(radius <= 0)
         if len(missed):
             i, j = missed[0]

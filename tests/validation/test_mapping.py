@@ -349,6 +349,6 @@ def fan(last):
 @pytest.mark.parametrize("last", [False, True])
 def test_ray_through_a_node_of_triangles(chord, last):
     points, faces = fan(last)
-    radius, guess = np.empty((1, 1)), np.zeros((1, 1), dtype=np.int64)
-    interface_radius(points, faces, np.array([5e-3]), np.array([1.0]), chord, guess, radius)
+    guess = np.zeros((1, 1), dtype=np.int64)
+    radius = interface_radius(points, faces, np.array([5e-3]), np.array([1.0]), chord, guess)
     assert_allclose(radius, 2.5e-3, rtol=1e-12)
