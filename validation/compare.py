@@ -4,11 +4,12 @@ import argparse
 import shlex
 import signal
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from cases.case_file import CaseFile, load_case_file
@@ -16,31 +17,37 @@ from cases.errors import CaseError
 from febio_io.errors import FebioError
 from reports import ReportError, write_reports
 from solver.errors import SolverError
-from solver.files import write_netcdf
 from solver.from_case import inlet_signal
 from validation import metrics
 from validation.account import described
 from validation.bands import FAIL, MISSING, OK, band_rows
-from validation.comparison import VariantRun, at_common_instants, check_variants, combine
+from validation.comparison import (
+    VariantRun,
+    at_common_instants,
+    attributes,
+    both_models,
+    check_variants,
+    without_fields,
+)
+from validation.comparison_file import comparison_file
 from validation.errors import ValidationError
-from validation.metrics import Row, models_of
+from validation.metrics import Models, Row, models_of
 from validation.output import check_target, result_directory, write_json, write_metrics
-from validation.run import run_variants, watching
+from validation.run import Watch, align_variants, run_variants, watching
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
 COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
-def variant_rows(comparison: xr.Dataset, name: str, run: VariantRun) -> list[Row]:
+def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any]) -> list[Row]:
     """All rows of one variant, its bands' among them."""
-    models = models_of(comparison, name)
-    cells = (comparison.attrs["compare_i"], comparison.attrs["compare_j"])
+    cells = (attributes["compare_i"], attributes["compare_j"])
     return [
         *band_rows(models, run.case),
         *metrics.pooled_rows(models),
         *metrics.cycle_rows(models),
         *metrics.check_rows(models),
-        *metrics.value_rows(models, cells, comparison.attrs["compare_times_s"]),
+        *metrics.value_rows(models, cells, attributes["compare_times_s"]),
         *metrics.cycle_error_rows(models, cells),
         *metrics.dominance_rows(models, cells),
         *metrics.plane_rows(models, run.reference.checks),
@@ -78,19 +85,36 @@ def compare_case(file: CaseFile, target: Path, command: list[str]) -> Outcome:
     """
     check_variants(file.variants)
     with watching() as watch, result_directory(target) as directory:
-        runs, notes = at_common_instants(run_variants(file.variants, watch))
+        rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):
-            comparison = combine(file, runs)
-            rows = [row for name, run in runs.items() for row in variant_rows(comparison, name, run)]
-            rows += metrics.change_rows(rows, comparison.attrs["baseline"])
             write_metrics(directory, metrics.to_frame(rows))
-        with watch.step("comparison.nc"):
-            write_netcdf(comparison, directory / "comparison.nc")
         account = described(file, runs, watch.wall_times, command, notes)
         write_json(directory / "provenance.json", account)
         with watch.step("reports"):
             write_reports(directory)
     return Outcome([row for row in rows if row.status], account["warnings"])
+
+
+def _compared(
+    file: CaseFile, directory: Path, watch: Watch
+) -> tuple[list[Row], dict[str, VariantRun], list[str]]:
+    """Run all variants; leave comparison.nc. Returns all rows, the runs without their fields, and notes."""
+    alignments, notes = at_common_instants(file.variants, align_variants(file.variants))
+    times = alignments[next(iter(file.variants))].cycle_times
+    about = attributes(file, times)
+    rows: dict[str, list[Row]] = {}
+    runs: dict[str, VariantRun] = {}
+    with comparison_file(directory / "comparison.nc", list(file.variants), about) as stored:
+        for name, run in run_variants(file.variants, alignments, watch):
+            both = both_models(run, times)
+            with watch.step("metrics"):
+                rows[name] = variant_rows(models_of(file.name, name, both, about["period_s"]), run, about)
+            with watch.step("comparison.nc"):
+                stored.write(name, both)
+            runs[name] = without_fields(run)
+    ordered = [row for name in file.variants for row in rows[name]]
+    changes = list(metrics.change_rows(ordered, about["baseline"]))
+    return ordered + changes, {name: runs[name] for name in file.variants}, notes
 
 
 def summary(file: CaseFile, target: Path, bands: list[Row]) -> str:

@@ -1,5 +1,7 @@
 """``reference.kind: febio``: a FEBio plot file on the cells of the reduced model."""
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -33,7 +35,24 @@ RADIUS_TOLERANCE = 1e-2  # and the mean radius of its unloaded interface by this
 LENGTH_TOLERANCE = 1e-3  # the mesh's length may differ from the case's by this share
 
 
-def read_febio(case: Case, rays: Rays, progress: Progress | None = None) -> Reference:
+def align_febio(case: Case) -> Alignment:
+    """States of a FEBio run within its last cycle.
+
+    Raises
+    ------
+    FebioError
+        If the plot file cannot be read.
+    UnusableReferenceError
+        If it has too few states.
+    """
+    stated = _stated(case)
+    with _naming(stated), open_plot(stated.plot_file) as plot:
+        return align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
+
+
+def read_febio(
+    case: Case, rays: Rays, progress: Progress | None = None, alignment: Alignment | None = None
+) -> Reference:
     """Map the last cycle of a FEBio run.
 
     Parameters
@@ -44,6 +63,8 @@ def read_febio(case: Case, rays: Rays, progress: Progress | None = None) -> Refe
         Where to.
     progress : callable, optional
         Called with (states done, states).
+    alignment : Alignment, optional
+        States to map; default :func:`align_febio`.
 
     Raises
     ------
@@ -52,19 +73,36 @@ def read_febio(case: Case, rays: Rays, progress: Progress | None = None) -> Refe
     UnusableReferenceError
         If it lacks what the mapping needs, or does not fit the case.
     """
-    stated = case.reference
-    if not isinstance(stated, FebioReference):
+    stated = _stated(case)
+    with _naming(stated), open_plot(stated.plot_file) as plot:
+        return _read(plot, stated, case, rays, progress, alignment)
+
+
+def _stated(case: Case) -> FebioReference:
+    if not isinstance(case.reference, FebioReference):
         raise UnusableReferenceError("the case states no FEBio reference")
+    return case.reference
+
+
+@contextmanager
+def _naming(stated: FebioReference) -> Iterator[None]:
+    """Name the plot file in what is raised."""
     try:
-        with open_plot(stated.plot_file) as plot:
-            return _read(plot, stated, case, rays, progress)
+        yield
     except UnusableReferenceError as error:
         if str(stated.plot_file) in str(error):
             raise
         raise UnusableReferenceError(f"{stated.plot_file}: {error}") from error
 
 
-def _read(plot: Plot, stated: FebioReference, case: Case, rays: Rays, progress: Progress | None) -> Reference:
+def _read(
+    plot: Plot,
+    stated: FebioReference,
+    case: Case,
+    rays: Rays,
+    progress: Progress | None,
+    alignment: Alignment | None,
+) -> Reference:
     require(plot)
     domains = choose_domains(plot, stated)
     place = frame(stated.axis, stated.phi_zero, stated.origin)
@@ -72,44 +110,66 @@ def _read(plot: Plot, stated: FebioReference, case: Case, rays: Rays, progress: 
     mesh = lumen_mesh(coordinates, blocks(plot, domains.lumen), blocks(plot, domains.wall))
     _check_length(plot, mesh, case)
     _check_radius(plot, mesh, case)
-    alignment = align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
-    pressure = pressure_reader(plot, domains.lumen, mesh.lumen, coordinates)
-    mapper, mapped = Mapper(mesh, rays), []
-    for done, state in enumerate(alignment.states, start=1):
-        displacement = nodal_vectors(plot, DISPLACEMENT, int(state), place)
-        velocity = nodal_vectors(plot, VELOCITY, int(state), place)
-        nodal_pressure = pressure(int(state))
-        for name, values in (
-            ("velocity", velocity),
-            ("displacement", displacement),
-            ("pressure", nodal_pressure),
-        ):
-            if not np.all(np.isfinite(values)):
-                raise UnusableReferenceError(
-                    f"{plot.path}: {name} of state {state + 1} is not finite everywhere"
-                )
-        mapped.append(mapper.map_state(displacement, velocity, nodal_pressure))
-        if progress:
-            progress(done, len(alignment.states))
-    _check_direction(plot, mapped, alignment, case)
+    if alignment is None:
+        alignment = align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
+    nodal_pressure = pressure_reader(plot, domains.lumen, mesh.lumen, coordinates)
+    inlet: list[tuple[float, float]] = []
+    fields = derived_fields(
+        _mapped(plot, place, Mapper(mesh, rays), alignment, nodal_pressure, progress, inlet),
+        rays,
+        alignment.cycle_times,
+    )
+    inflow, inlet_area = np.array(inlet).T
+    _check_direction(plot, inflow, alignment, case)
+    checks = _plane_checks(plot, place, mesh, alignment, case, rays)
     return Reference(
-        fields=derived_fields(mapped, rays, alignment.cycle_times),
-        checks=_checks(plot, place, mesh, mapped, alignment, case, rays),
+        fields=fields,
+        checks=checks.assign(inlet_flow_rate=("time", inflow), inlet_area=("time", inlet_area)),
         alignment=alignment,
         description=_description(plot, alignment),
         notes=(*plot.warnings, *domains.notes),
     )
 
 
-def _check_direction(plot: Plot, mapped: list[MappedState], alignment: Alignment, case: Case) -> None:
+def _mapped(
+    plot: Plot,
+    place: Frame,
+    mapper: Mapper,
+    alignment: Alignment,
+    nodal_pressure: Callable[[int], NDArray[np.float64]],
+    progress: Progress | None,
+    inlet: list[tuple[float, float]],
+) -> Iterator[MappedState]:
+    """Map state after state; flow rate and area of each inlet go to ``inlet``."""
+    for done, state in enumerate(alignment.states.tolist(), start=1):
+        displacement = nodal_vectors(plot, DISPLACEMENT, state, place)
+        velocity = nodal_vectors(plot, VELOCITY, state, place)
+        pressure = nodal_pressure(state)
+        for name, values in (
+            ("velocity", velocity),
+            ("displacement", displacement),
+            ("pressure", pressure),
+        ):
+            if not np.all(np.isfinite(values)):
+                raise UnusableReferenceError(
+                    f"{plot.path}: {name} of state {state + 1} is not finite everywhere"
+                )
+        mapped = mapper.map_state(displacement, velocity, pressure)
+        inlet.append((mapped.inflow, mapped.inlet_area))
+        yield mapped
+        if progress:
+            progress(done, len(alignment.states))
+
+
+def _check_direction(plot: Plot, inflow: NDArray[np.float64], alignment: Alignment, case: Case) -> None:
     """Refuse a reference whose blood flows against the prescribed inflow."""
     if case.inlet.kind == "pressure":
         return
     prescribed = float(np.mean(inlet_signal(case)(alignment.cycle_times)))
-    inflow = float(np.mean(_each(mapped, "inflow")))
-    if prescribed * inflow < 0:
+    mean = float(np.mean(inflow))
+    if prescribed * mean < 0:
         raise UnusableReferenceError(
-            f"{plot.path}: blood flows against the inflow of the case ({inflow:.3g} m³/s on average at "
+            f"{plot.path}: blood flows against the inflow of the case ({mean:.3g} m³/s on average at "
             "reference.origin): reference.axis and origin must follow the flow"
         )
 
@@ -135,18 +195,12 @@ def _check_radius(plot: Plot, mesh: LumenMesh, case: Case) -> None:
         )
 
 
-def _checks(
-    plot: Plot,
-    place: Frame,
-    mesh: LumenMesh,
-    mapped: list[MappedState],
-    alignment: Alignment,
-    case: Case,
-    rays: Rays,
+def _plane_checks(
+    plot: Plot, place: Frame, mesh: LumenMesh, alignment: Alignment, case: Case, rays: Rays
 ) -> xr.Dataset:
-    """Flow rates by surface integral: through the inlet at all states, through planes at a few."""
+    """Flow rates through planes at a few states, by surface integral."""
     sections = np.array(case.compare.cells.i) - 1
-    few = np.unique(np.linspace(0, len(mapped) - 1, 5).astype(int))
+    few = np.unique(np.linspace(0, len(alignment.states) - 1, 5).astype(int))
     grid = lumen_grid(mesh.lumen)
     planes = np.empty((few.size, sections.size))
     for row, state in enumerate(alignment.states[few]):
@@ -154,21 +208,13 @@ def _checks(
         velocity = nodal_vectors(plot, VELOCITY, int(state), place)
         planes[row] = [plane_flow_rate(grid, points, velocity, float(x)) for x in rays.x[sections]]
     return xr.Dataset(
-        {
-            "inlet_flow_rate": ("time", _each(mapped, "inflow")),
-            "inlet_area": ("time", _each(mapped, "inlet_area")),
-            "plane_flow_rate": (("check_time", "check_x"), planes),
-        },
+        {"plane_flow_rate": (("check_time", "check_x"), planes)},
         coords={
             "time": alignment.cycle_times,
             "check_time": alignment.cycle_times[few],
             "check_x": rays.x[sections],
         },
     )
-
-
-def _each(mapped: list[MappedState], name: str) -> NDArray[np.float64]:
-    return np.array([getattr(state, name) for state in mapped])
 
 
 def _description(plot: Plot, alignment: Alignment) -> dict[str, Any]:

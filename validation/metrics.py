@@ -64,17 +64,14 @@ class Models:
         return Row(self.case, self.variant, quantity, statistic, unit=unit, **values)
 
 
-def models_of(comparison: xr.Dataset, variant: str) -> Models:
-    """Split one variant of a comparison into its two models."""
-    chosen = comparison.sel(variant=variant)
+def models_of(case: str, variant: str, both: xr.Dataset, period: float) -> Models:
+    """Split one variant, with fields ``rom_…`` and ``reference_…``, into its two models."""
     parts = {}
     for model in ("rom", "reference"):
         prefix = f"{model}_"
-        names = {str(n): str(n).removeprefix(prefix) for n in chosen.data_vars if str(n).startswith(prefix)}
-        parts[model] = chosen[list(names)].rename(names)
-    return Models(
-        comparison.attrs["case"], variant, parts["rom"], parts["reference"], comparison.attrs["period_s"]
-    )
+        names = {str(n): str(n).removeprefix(prefix) for n in both.data_vars if str(n).startswith(prefix)}
+        parts[model] = both[list(names)].rename(names)
+    return Models(case, variant, parts["rom"], parts["reference"], period)
 
 
 def _single(rom: float, reference: float) -> float | None:

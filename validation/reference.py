@@ -1,7 +1,7 @@
-"""Where 3D data comes from: one protocol, one registry.
+"""Where 3D data comes from: the protocol that a kind of reference follows.
 
-A kind of reference is a function from a case, its rays and a progress callback to a
-:class:`Reference`; :data:`REFERENCES` holds one per ``reference.kind`` of the case file.
+A kind is one module with a :class:`ReferenceKind`; :mod:`validation.reference_kinds` registers it under
+the ``reference.kind`` of the case file, and :mod:`cases.reference` holds what a case states of it.
 """
 
 from collections.abc import Callable
@@ -46,4 +46,19 @@ class Reference:
     notes: tuple[str, ...]
 
 
-ReferenceReader = Callable[[Case, Rays, Progress | None], Reference]
+@dataclass(frozen=True)
+class ReferenceKind:
+    """How a kind of reference is read.
+
+    Attributes
+    ----------
+    align : callable (case) -> Alignment
+        The instants that the reference has, at little cost: the reduced model runs through them, and those
+        that other variants lack are left out.
+    read : callable (case, rays, progress, alignment) -> Reference
+        Data at the instants of ``alignment`` on ``rays``; calls ``progress(done, total)``, if given. Both
+        raise a `ValidationError` or an error of the file's reader with one line that names the file.
+    """
+
+    align: Callable[[Case], Alignment]
+    read: Callable[[Case, Rays, Progress | None, Alignment | None], Reference]

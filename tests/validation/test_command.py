@@ -450,8 +450,8 @@ class TestInterrupt:
         ("module", "name"),
         [
             (run, "run_reduced_model"),
-            (compare, "combine"),
-            (compare, "write_netcdf"),
+            (compare, "both_models"),
+            (compare, "comparison_file"),
             (compare, "write_reports"),
         ],
     )

@@ -14,6 +14,7 @@ from comparisons import (
     comparison,
     equal_models,
     model_fields,
+    models_in,
     two_models,
 )
 from hypothesis import given, settings
@@ -22,7 +23,7 @@ from hypothesis import strategies as st
 from cases.fields import FIELDS
 from validation import metrics
 from validation.cycle_quantities import CYCLE_QUANTITIES, phase_lag
-from validation.metrics import COLUMNS, Row, models_of, to_frame
+from validation.metrics import COLUMNS, Row, to_frame
 
 AFFECTED = {
     "pressure": {"pressure"},
@@ -179,7 +180,7 @@ class TestChanges:
             for seed in (1, 2)
         )
         both = comparison(rom, reference)
-        rows = [row for name in rom for row in rows_of(models_of(both, name))]
+        rows = [row for name in rom for row in rows_of(models_in(both, name))]
         return rows, list(metrics.change_rows(rows, "none"))
 
     def test_a_change_is_the_value_less_the_baselines(self):
