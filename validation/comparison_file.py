@@ -64,12 +64,9 @@ class ComparisonFile:
                 complevel=1,
                 shuffle=True,
                 fill_value=np.nan if values.dtype.kind == "f" else None,
-                chunksizes=(
-                    1,
-                    *(1 if dim == "time" and "phi" in values.dims else n for dim, n in values.sizes.items()),
-                ),
+                chunksizes=_chunks(values),
+                chunk_cache=1000,  # bytes, less than a chunk: compress at once, while variants are computed
             )
-            stored.set_var_chunk_cache(size=0)  # compress at once, while other variants are computed
             stored.setncatts(values.attrs)
 
 
