@@ -25,7 +25,8 @@ def sources_digest(folders: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
-def _candidates() -> list[Path]:
+def cache_folders() -> list[Path]:
+    """Folders for what can be computed anew, the preferred one first; none need exist."""
     stated = os.environ.get("XDG_CACHE_HOME")
     home = Path("~").expanduser()
     own = f"{FOLDER}-{os.getuid()}" if hasattr(os, "getuid") else FOLDER
@@ -50,7 +51,7 @@ def keep_kernels() -> None:
         return
     root = Path(__file__).parents[1]
     digest = sources_digest(root / folder for folder in KERNELS)
-    for candidate in _candidates():
+    for candidate in cache_folders():
         if _usable(candidate / digest):
             numba.config.CACHE_DIR = str(candidate / digest)  # type: ignore[attr-defined]
             return

@@ -21,6 +21,7 @@ from solver.from_case import inlet_signal
 from validation import metrics
 from validation.account import described
 from validation.bands import FAIL, MISSING, OK, band_rows
+from validation.cache import Cache, open_cache
 from validation.comparison import (
     VariantRun,
     at_common_instants,
@@ -65,13 +66,13 @@ def prescribed_inflow(run: VariantRun) -> NDArray[np.float64] | None:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Rows of the declared bands, and warnings that cast doubt on them."""
+    """Rows of the declared bands, and what else a user should see."""
 
     bands: list[Row]
     warnings: list[str]
 
 
-def compare_case(file: CaseFile, target: Path, command: list[str]) -> Outcome:
+def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache | None = None) -> Outcome:
     """Run one case file and leave its result in ``target``; see ``harness`` for what that holds.
 
     Returns
@@ -84,15 +85,15 @@ def compare_case(file: CaseFile, target: Path, command: list[str]) -> Outcome:
         For input that is wrong; ``target`` is then as it was.
     """
     check_variants(file.variants)
-    with watching() as watch, result_directory(target) as directory:
+    with watching(cache) as watch, result_directory(target) as directory:
         rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):
             write_metrics(directory, metrics.to_frame(rows))
-        account = described(file, runs, watch.wall_times, command, notes)
+        account = described(file, runs, watch.wall_times, command, [*watch.remarks, *notes])
         write_json(directory / "provenance.json", account)
         with watch.step("reports"):
             write_reports(directory)
-    return Outcome([row for row in rows if row.status], account["warnings"])
+    return Outcome([row for row in rows if row.status], [*watch.remarks, *account["warnings"]])
 
 
 def _compared(
@@ -137,6 +138,9 @@ def _arguments(argv: list[str]) -> argparse.Namespace:
         metavar="DIR",
         help="result directory (default: results/NAME; with several cases: DIR/NAME)",
     )
+    parser.add_argument(
+        "--fresh", action="store_true", help="compute everything, whatever earlier runs left in the cache"
+    )
     parser.add_argument("--check", action="store_true", help="exit 1 unless every band holds")
     return parser.parse_args(argv)
 
@@ -174,9 +178,10 @@ def main(argv: list[str] | None = None) -> int:
     broken = False
     signal.signal(signal.SIGTERM, _interrupt)
     try:
+        cache = open_cache(arguments.fresh)
         files = [load_case_file(path) for path in arguments.cases]
         for file, target in zip(files, targets(files, arguments.output), strict=True):
-            outcome = compare_case(file, target, command)
+            outcome = compare_case(file, target, command, cache)
             for warning in outcome.warnings:
                 print(f"warning: {warning}", file=sys.stderr)
             bands = outcome.bands

@@ -14,10 +14,11 @@ from cases.schema import Case
 from solver.errors import SolverError
 from solver.from_case import grid_of
 from validation.alignment import Alignment
+from validation.cache import Cache
+from validation.cached_runs import cached_reference, cached_rom
 from validation.comparison import VariantRun
 from validation.errors import ValidationError
 from validation.rays import rays
-from validation.reduced_model import run_reduced_model
 from validation.reference import Progress, ReferenceKind
 from validation.reference_kinds import REFERENCE_KINDS
 
@@ -30,10 +31,12 @@ class _StoppedError(Exception):
 
 @dataclass
 class Watch:
-    """Progress display and wall times of a comparison's steps."""
+    """Progress display, cache, wall times and remarks of a comparison's steps."""
 
     display: Display
+    cache: Cache | None = None
     stop: threading.Event = field(default_factory=threading.Event)
+    remarks: list[str] = field(default_factory=list)
     wall_times: dict[str, float] = field(default_factory=dict)
 
     @contextmanager
@@ -54,11 +57,11 @@ class Watch:
 
 
 @contextmanager
-def watching() -> Iterator[Watch]:
+def watching(cache: Cache | None = None) -> Iterator[Watch]:
     """Show progress on standard error if it is a terminal, nothing otherwise."""
     console = Console(stderr=True)
     with Display(console=console, transient=True, disable=not console.is_terminal) as display:
-        yield Watch(display)
+        yield Watch(display, cache)
 
 
 def align_variants(cases: Mapping[str, Case]) -> dict[str, Alignment]:
@@ -90,10 +93,12 @@ def run_variant(name: str, case: Case, alignment: Alignment, watch: Watch) -> Va
     grid = grid_of(case)
     points = rays(grid.x, grid.phi)
     with watch.step(f"{name}: 3D onto cells") as progress:
-        reference = kind_of(name, case).read(case, points, progress, alignment)
+        reference = cached_reference(
+            watch.cache, kind_of(name, case), case, points, progress, alignment, watch.remarks.append
+        )
     with watch.step(f"{name}: reduced model") as progress:
         try:
-            rom = run_reduced_model(case, reference.alignment, points, progress)
+            rom = cached_rom(watch.cache, case, alignment, points, progress, watch.remarks.append)
         except SolverError as error:
             raise ValidationError(f"variant {name!r}: {error}") from error
     return VariantRun(case, rom, reference)

@@ -19,7 +19,7 @@ from tube_plot import VARIABLES, write_tube
 from tubes import Tube
 
 from cases.fields import FIELDS
-from validation import compare, output, plot_file, run
+from validation import cached_runs, compare, output, plot_file
 
 FILES = {"comparison.nc", "metrics.csv", "metrics.json", "provenance.json", "report.html", "report.pdf"}
 GENEROUS = ("radius", "rms_error", "50 %")
@@ -449,7 +449,7 @@ class TestInterrupt:
     @pytest.mark.parametrize(
         ("module", "name"),
         [
-            (run, "run_reduced_model"),
+            (cached_runs, "run_reduced_model"),
             (compare, "both_models"),
             (compare, "comparison_file"),
             (compare, "write_reports"),
