@@ -1,13 +1,25 @@
 """The 3D results that a case is compared with."""
 
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationInfo, field_validator
+from pydantic import Field, Tag, ValidationInfo, field_validator
 
 from cases.section import Section
-from cases.values import ExistingFile, Length, Time, Words, distinct, one_of, refused, words_of
+from cases.values import (
+    ExistingFile,
+    Length,
+    Time,
+    Words,
+    distinct,
+    one_of,
+    refused,
+    whole_number,
+    words_of,
+)
 from cases.wording import choices
 
+CellCount = Annotated[int, whole_number("a whole number from 1 on", lambda value: value >= 1)]
 Axis = Literal["x", "y", "z"]
 Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
 NEXT_AXIS: dict[str, Direction] = {"x": "y", "y": "z", "z": "x"}
@@ -46,6 +58,11 @@ class FebioReference(Section):
     lumen: tuple[Words, ...] | None = None
     wall: tuple[Words, ...] | None = None
 
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """Absolute paths of the files that hold the results."""
+        return (self.plot_file,)
+
     @field_validator("phi_zero")
     @classmethod
     def _phi_zero(cls, direction: str, info: ValidationInfo) -> str:
@@ -58,3 +75,57 @@ class FebioReference(Section):
     @classmethod
     def _domains(cls, names: tuple[str, ...] | None) -> tuple[str, ...] | None:
         return names if names is None else distinct(names)
+
+
+class TablesReference(Section):
+    """Results printed in tables: values at some cells and instants, and a few numbers of the whole cycle.
+
+    Attributes
+    ----------
+    simulation : str
+        Which rows to take of tables that hold several simulations: what their column `simulation` says.
+    model : str
+        Which rows to take of `quoted`: what its column `model` says.
+    n_x, n_phi : int
+        Grid on which the tables count their cells; the solver's must be the same.
+    time_offset : float
+        The tables' time at the start of a cycle, in s.
+    instants : tuple of float
+        The tables' times, in s; a printed time stands for the nearest one within 2 ms.
+    section_flow_rate, sector_flow_rate : pathlib.Path or None
+        Tables with columns `t_s`, `j` (sectors only) and `i_1`, … of flow rates in cm³/s.
+    axial_dominance_radial, axial_dominance_azimuthal : pathlib.Path or None
+        Tables with columns `j` and `i_1`, … of the largest |v_r|/v_x and |v_φ|/v_x.
+    quoted : pathlib.Path or None
+        Table with columns `quantity`, `model`, `simulation`, `value`, `unit`.
+    """
+
+    kind: Annotated[Literal["tables"], one_of(Literal["tables"])]
+    simulation: Words = "3D"
+    model: Words
+    n_x: CellCount = 120
+    n_phi: CellCount = 48
+    time_offset: Time = 0.0
+    instants: tuple[Time, ...]
+    section_flow_rate: ExistingFile | None = None
+    sector_flow_rate: ExistingFile | None = None
+    axial_dominance_radial: ExistingFile | None = None
+    axial_dominance_azimuthal: ExistingFile | None = None
+    quoted: ExistingFile | None = None
+
+    _instants = field_validator("instants")(distinct)
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """Absolute paths of the files that hold the results."""
+        stated = (
+            self.section_flow_rate,
+            self.sector_flow_rate,
+            self.axial_dominance_radial,
+            self.axial_dominance_azimuthal,
+            self.quoted,
+        )
+        return tuple(path for path in stated if path is not None)
+
+
+Reference = Annotated[FebioReference, Tag("febio")] | Annotated[TablesReference, Tag("tables")]

@@ -116,11 +116,19 @@ def cached_reference(
             alignment=alignment,
             description=facts["description"],
             notes=tuple(facts["notes"]),
+            sparse=facts["sparse"],
+            cycle=facts["cycle"],
         )
 
     def packed(found: Reference) -> Entry:
         datasets = {"fields": found.fields, "checks": found.checks}
-        return Entry(datasets, {"description": found.description, "notes": list(found.notes)})
+        facts = {
+            "description": found.description,
+            "notes": list(found.notes),
+            "sparse": found.sparse,
+            "cycle": dict(found.cycle),
+        }
+        return Entry(datasets, facts)
 
     return _cached(
         store,

@@ -1,6 +1,7 @@
 """``python -m validation.compare CASE.yaml``: run the reduced model, read the reference, score, report."""
 
 import argparse
+import json
 import shlex
 import signal
 import sys
@@ -57,7 +58,9 @@ def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any])
 
 
 def prescribed_inflow(run: VariantRun) -> NDArray[np.float64] | None:
-    """Flow rate that the case prescribes at the 3D inlet, m³/s; None where it prescribes pressure."""
+    """Flow rate that the case prescribes at the 3D inlet, m³/s; None where there is none to compare."""
+    if "inlet_flow_rate" not in run.reference.checks:
+        return None
     signal = inlet_signal(run.case)(run.reference.alignment.cycle_times)
     if run.case.inlet.kind == "velocity":
         return np.asarray(signal * run.reference.checks["inlet_area"].to_numpy())
@@ -109,12 +112,14 @@ def _compared(
         for name, run in run_variants(file.variants, alignments, watch):
             both = both_models(run, times)
             with watch.step("metrics"):
-                rows[name] = variant_rows(models_of(file.name, name, both, about["period_s"]), run, about)
+                told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
+                models = models_of(file.name, name, both, about["period_s"], **told)
+                rows[name] = variant_rows(models, run, about)
             with watch.step("comparison.nc"):
                 stored.write(name, both)
             runs[name] = without_fields(run)
     ordered = [row for name in file.variants for row in rows[name]]
-    changes = list(metrics.change_rows(ordered, about["baseline"]))
+    changes = list(metrics.change_rows(ordered, json.loads(about["baselines"])))
     return ordered + changes, {name: runs[name] for name in file.variants}, notes
 
 

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from cases.case_file import CaseFile
-from cases.schema import Case, NoCalcification
+from cases.schema import Case, NoCalcification, TablesReference
 from solver.from_case import calcified_cells
 from solver.result import CONVENTIONS
 from validation.alignment import Alignment
@@ -36,12 +36,37 @@ class VariantRun:
     reference: Reference
 
 
+def baselines_of(file: CaseFile) -> dict[str, str]:
+    """Variant without calcification that each variant's change is counted from.
+
+    It is the first one whose reference is of the same kind and simulation; a variant without such a
+    baseline is left out.
+    """
+    healthy = [n for n, case in file.variants.items() if isinstance(case.calcification, NoCalcification)]
+    found = {}
+    for name, case in file.variants.items():
+        same = [other for other in healthy if _source(file.variants[other]) == _source(case)]
+        if same:
+            found[name] = same[0]
+    return found
+
+
+def _source(case: Case) -> tuple[str, str]:
+    """Kind of a reference and which simulation it holds."""
+    reference = case.reference
+    if reference is None:
+        return "", ""
+    return reference.kind, reference.simulation if isinstance(reference, TablesReference) else ""
+
+
+def _is_sparse(case: Case) -> bool:
+    """Whether the reference states values at some cells only, and NaN elsewhere."""
+    return isinstance(case.reference, TablesReference)
+
+
 def baseline_of(file: CaseFile) -> str:
     """Name of the first variant without calcification, or "" if there is none."""
-    for name, case in file.variants.items():
-        if isinstance(case.calcification, NoCalcification):
-            return name
-    return ""
+    return next(iter(baselines_of(file).values()), "")
 
 
 def check_variants(cases: Mapping[str, Case]) -> None:
@@ -145,5 +170,9 @@ def attributes(file: CaseFile, times: NDArray[np.float64]) -> dict[str, Any]:
         "compare_j": np.array(case.compare.cells.j),
         "compare_time_names": json.dumps(list(instants)),
         "compare_times_s": times[list(instants.values())],
+        "sparse_reference": int(
+            any(isinstance(c.reference, TablesReference) for c in file.variants.values())
+        ),
+        "baselines": json.dumps(baselines_of(file)),
         "case_yaml": file.text,
     }

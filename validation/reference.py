@@ -4,8 +4,8 @@ A kind is one module with a :class:`ReferenceKind`; :mod:`validation.reference_k
 the ``reference.kind`` of the case file, and :mod:`cases.reference` holds what a case states of it.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import xarray as xr
@@ -37,6 +37,11 @@ class Reference:
         For provenance: file, software, mesh, states.
     notes : tuple of str
         What a reader must know.
+    sparse : bool
+        Whether NaN stands for what the reference does not state, rather than for something wrong.
+    cycle : mapping of str to float
+        Numbers of the whole cycle that the reference states itself, SI, by name of the quantity; they
+        count instead of those found from ``fields``.
     """
 
     fields: xr.Dataset
@@ -44,6 +49,8 @@ class Reference:
     alignment: Alignment
     description: dict[str, Any]
     notes: tuple[str, ...]
+    sparse: bool = False
+    cycle: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
