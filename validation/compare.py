@@ -21,6 +21,7 @@ from solver.errors import SolverError
 from solver.from_case import inlet_signal
 from validation import metrics
 from validation.account import described
+from validation.assumptions import assumption_rows
 from validation.bands import FAIL, MISSING, OK, band_rows
 from validation.cache import Cache, open_cache
 from validation.comparison import (
@@ -32,9 +33,12 @@ from validation.comparison import (
     without_fields,
 )
 from validation.comparison_file import comparison_file
+from validation.confidence import confidence_rows
 from validation.errors import ValidationError
 from validation.metrics import Models, Row, models_of
 from validation.output import check_target, result_directory, write_json, write_metrics
+from validation.pooled_change import pooled_change_rows, without_rays
+from validation.profile_curves import CURVE, error_curves, profile_rows
 from validation.run import Watch, align_variants, run_variants, watching
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
@@ -47,11 +51,14 @@ def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any])
     return [
         *band_rows(models, run.case),
         *metrics.pooled_rows(models),
+        *confidence_rows(models),
         *metrics.cycle_rows(models),
         *metrics.check_rows(models),
         *metrics.value_rows(models, cells, attributes["compare_times_s"]),
         *metrics.cycle_error_rows(models, cells),
         *metrics.dominance_rows(models, cells),
+        *assumption_rows(models, attributes),
+        *profile_rows(models, attributes),
         *metrics.plane_rows(models, run.reference.checks),
         *metrics.inflow_rows(models, run.reference.checks, prescribed_inflow(run)),
     ]
@@ -108,6 +115,7 @@ def _compared(
     about = attributes(file, times)
     rows: dict[str, list[Row]] = {}
     runs: dict[str, VariantRun] = {}
+    compared: dict[str, Models] = {}
     with comparison_file(directory / "comparison.nc", list(file.variants), about) as stored:
         for name, run in run_variants(file.variants, alignments, watch):
             both = both_models(run, times)
@@ -115,11 +123,14 @@ def _compared(
                 told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
                 models = models_of(file.name, name, both, about["period_s"], **told)
                 rows[name] = variant_rows(models, run, about)
+                compared[name] = without_rays(models)
+                both[CURVE] = error_curves(models, about)
             with watch.step("comparison.nc"):
                 stored.write(name, both)
             runs[name] = without_fields(run)
     ordered = [row for name in file.variants for row in rows[name]]
-    changes = list(metrics.change_rows(ordered, json.loads(about["baselines"])))
+    baselines = json.loads(about["baselines"])
+    changes = [*metrics.change_rows(ordered, baselines), *pooled_change_rows(compared, baselines)]
     return ordered + changes, {name: runs[name] for name in file.variants}, notes
 
 

@@ -72,7 +72,7 @@ class ComparisonFile:
 
 def _chunks(values: xr.DataArray) -> tuple[int, ...]:
     """One variant, and of fields on cells one state: what is read at once."""
-    by_state = "phi" in values.dims
+    by_state = "time" in values.dims and "phi" in values.dims
     return (1, *(1 if dim == "time" and by_state else size for dim, size in values.sizes.items()))
 
 

@@ -69,6 +69,7 @@ def _state_fields(state: MappedState, rays: Rays) -> dict[str, Any]:
         "sector_flow_rate": sector,
         "section_flow_rate": sector.sum(axis=-1),
         "section_pressure": np.average(state.pressure, weights=state.sector_area, axis=-1),
+        "section_pressure_range": state.pressure_range,
         "axial_velocity": axial,
         "radial_velocity": velocity[..., 1],
         "azimuthal_velocity": velocity[..., 2],

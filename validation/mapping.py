@@ -22,9 +22,9 @@ class MappedState(NamedTuple):
 
     ``radius``, ``chord`` (n_x, n_phi): wall radius and the ray's end in the mesh; ``sector_area``
     (n_x, n_phi): 2/Δφ times the area of each sector of the mesh's lumen, R² for a circle, m²;
-    ``velocity`` (n_x, n_phi, n_y, 3): along x, r, φ; ``pressure`` (n_x, n_phi): ray mean; ``inflow``,
-    ``outflow``, ``wall_flow``: flow rates through the boundary by surface integral, m³/s;
-    ``inlet_area``: m².
+    ``velocity`` (n_x, n_phi, n_y, 3): along x, r, φ; ``pressure`` (n_x, n_phi): ray mean;
+    ``pressure_range`` (n_x,): largest minus least over all points of a section; ``inflow``, ``outflow``,
+    ``wall_flow``: flow rates through the boundary by surface integral, m³/s; ``inlet_area``: m².
     """
 
     radius: Floats
@@ -32,6 +32,7 @@ class MappedState(NamedTuple):
     sector_area: Floats
     velocity: Floats
     pressure: Floats
+    pressure_range: Floats
     inflow: float
     outflow: float
     wall_flow: float
@@ -94,6 +95,7 @@ class Mapper:
             sector_area=(rim**2).reshape(*radius.shape, -1).mean(axis=-1),
             velocity=rays.cylindrical(values[..., :3]),
             pressure=rays.mean(values[..., 3]),
+            pressure_range=np.ptp(values[..., 3], axis=(1, 2)),
             inflow=flow_along_axis(points, mesh.inlet, velocity),
             outflow=flow_along_axis(points, mesh.outlet, velocity),
             wall_flow=float(flux(points, mesh.interface, velocity)),

@@ -195,7 +195,7 @@ def cycle_rows(models: Models) -> Iterator[Row]:
 
 def check_rows(models: Models) -> Iterator[Row]:
     """Tell whether the reduced model's assumptions, and both simulations, hold."""
-    for quantity in ("mass_defect", "axis_velocity_spread"):
+    for quantity in ("mass_defect", "axis_velocity_spread", "section_pressure_range"):
         rom, reference = models.pair(quantity)
         yield models.row(quantity, "largest", rom=float(np.max(np.abs(rom))), reference=_largest(reference))
     for quantity in ("backflow_fraction", "axial_dominance_radial", "axial_dominance_azimuthal"):

@@ -26,8 +26,8 @@ class Reference:
     fields : xarray.Dataset
         On time (s into the last cycle), x, phi and y: pressure, radius, mean_velocity,
         profile_exponent, profile_error, sector_flow_rate, section_flow_rate, section_pressure,
-        axial_velocity, radial_velocity, azimuthal_velocity, mass_defect, backflow_fraction,
-        axial_dominance_radial, axial_dominance_azimuthal, axis_velocity_spread. SI.
+        section_pressure_range, axial_velocity, radial_velocity, azimuthal_velocity, mass_defect,
+        backflow_fraction, axial_dominance_radial, axial_dominance_azimuthal, axis_velocity_spread. SI.
     checks : xarray.Dataset
         Flow rates found independently: inlet_flow_rate, inlet_area on time; plane_flow_rate on
         (check_time, check_x). SI.

@@ -40,6 +40,7 @@ QUOTED = {  # quantities of the table of quoted values, by the names that metric
 RAY_FIELDS = ("axial_velocity", "radial_velocity", "azimuthal_velocity")
 NEVER_STATED = (
     *("pressure", "radius", "mean_velocity", "profile_exponent", "profile_error", "section_pressure"),
+    "section_pressure_range",
     *("mass_defect", "backflow_fraction", "axis_velocity_spread"),
 )
 

@@ -20,6 +20,7 @@ from tubes import Tube
 
 from cases.fields import FIELDS
 from validation import cached_runs, compare, output, plot_file
+from validation.metrics import CELL_QUANTITIES, SECTION_QUANTITIES
 
 FILES = {"comparison.nc", "metrics.csv", "metrics.json", "provenance.json", "report.html", "report.pdf"}
 GENEROUS = ("radius", "rms_error", "50 %")
@@ -133,7 +134,8 @@ class TestResult:
 
     def test_each_value_is_in_the_dataset(self, finished):
         rows = json.loads((finished[1] / "metrics.json").read_text(encoding="utf-8"))
-        values = [row for row in rows if row["statistic"] == "value" and row["rom"] is not None]
+        compared = (*CELL_QUANTITIES, *SECTION_QUANTITIES)
+        values = [row for row in rows if row["statistic"] == "value" and row["quantity"] in compared]
         assert len(values) == 2 * (5 * 3 * 2 + 2 * 3) * 3
         with xr.open_dataset(finished[1] / "comparison.nc") as data:
             for row in values:
@@ -164,7 +166,7 @@ class TestResult:
         about = json.loads((finished[1] / "provenance.json").read_text(encoding="utf-8"))
         assert about.keys() == {
             "created", "command", "git_commit", "package_version", "python", "versions", "machine",
-            "case", "inputs", "wall_times_s", "notes", "variants", "bands", "warnings",
+            "case", "inputs", "wall_times_s", "notes", "variants", "bands", "warnings", "seeds",
         }  # fmt: skip
         names = {Path(item["path"]).name for item in about["inputs"]}
         assert names == {"none.xplt", "local.xplt", "thesis_inlet.csv"}
@@ -227,7 +229,7 @@ def test_a_false_reference_changes_just_the_rows_that_speak_of_it(tmp_path, quic
     changed = set(right.loc[~same.all(axis=1), "quantity"])
     assert changed == {
         "pressure", "section_pressure", "systolic_pressure", "diastolic_pressure", "pulse_pressure",
-        "largest_pressure_difference",
+        "largest_pressure_difference", "section_pressure_range",
     }  # fmt: skip
     values = right["statistic"].isin(["value", "cycle"]) & right["quantity"].isin(changed)
     np.testing.assert_allclose(false["reference"][values] / right["reference"][values], 1.1, rtol=1e-12)
