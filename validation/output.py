@@ -98,11 +98,19 @@ def _take_place(partial: Path, place: Path) -> None:
     shutil.rmtree(old)
 
 
+def write_text(path: Path, text: str) -> None:
+    """Write a file whole or not at all, UTF-8."""
+    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
 def write_json(path: Path, content: Any) -> None:
-    """Write strict JSON, UTF-8, indented."""
-    path.write_text(
-        json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
-    )
+    """Write strict JSON, indented."""
+    write_text(path, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
 
 
 def _plain(value: Any) -> Any:
