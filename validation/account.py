@@ -42,6 +42,7 @@ def warnings_of(runs: Mapping[str, VariantRun]) -> list[str]:
     for name, run in runs.items():
         alignment, times = run.reference.alignment, run.reference.alignment.cycle_times
         found += [f"{name}: {note}" for note in run.reference.notes if "cut off" in note]
+        found += [f"{name}: {warning}" for warning in run.reference.warnings]
         if alignment.coverage < WHOLE:
             found.append(
                 f"{name}: the reference's states cover only {alignment.coverage:.1%} of the cycle, "

@@ -116,6 +116,7 @@ def cached_reference(
             alignment=alignment,
             description=facts["description"],
             notes=tuple(facts["notes"]),
+            warnings=tuple(facts["warnings"]),
             sparse=facts["sparse"],
             cycle=facts["cycle"],
         )
@@ -125,6 +126,7 @@ def cached_reference(
         facts = {
             "description": found.description,
             "notes": list(found.notes),
+            "warnings": list(found.warnings),
             "sparse": found.sparse,
             "cycle": dict(found.cycle),
         }

@@ -1,6 +1,6 @@
 """``reference.kind: febio``: a FEBio plot file on the cells of the reduced model."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -12,21 +12,13 @@ from cases.schema import Case, FebioReference
 from febio_io.xplt import Plot, open_plot
 from solver.from_case import inlet_signal
 from validation.alignment import Alignment, align
+from validation.calcified_extent import described, doubts, extent
 from validation.derived import derived_fields
 from validation.errors import UnusableReferenceError
-from validation.frame import Frame, frame
 from validation.mapping import MappedState, Mapper
-from validation.mesh import LumenMesh, lumen_mesh
+from validation.mesh import LumenMesh
 from validation.plane_section import lumen_grid, plane_flow_rate
-from validation.plot_file import (
-    DISPLACEMENT,
-    VELOCITY,
-    blocks,
-    choose_domains,
-    nodal_vectors,
-    pressure_reader,
-    require,
-)
+from validation.plot_model import PlotModel, plot_model
 from validation.provenance import shown_path
 from validation.rays import Rays
 from validation.reference import Progress, Reference
@@ -47,7 +39,7 @@ def align_febio(case: Case) -> Alignment:
     """
     stated = _stated(case)
     with _naming(stated), open_plot(stated.plot_file) as plot:
-        return align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
+        return _alignment(plot, stated, case)
 
 
 def read_febio(
@@ -103,58 +95,56 @@ def _read(
     progress: Progress | None,
     alignment: Alignment | None,
 ) -> Reference:
-    require(plot)
-    domains = choose_domains(plot, stated)
-    place = frame(stated.axis, stated.phi_zero, stated.origin)
-    coordinates = place.points(plot.mesh.coordinates)
-    mesh = lumen_mesh(coordinates, blocks(plot, domains.lumen), blocks(plot, domains.wall))
-    _check_length(plot, mesh, case)
-    _check_radius(plot, mesh, case)
+    model = plot_model(plot, stated)
+    _check_length(plot, model.mesh, case)
+    _check_radius(plot, model.mesh, case)
     if alignment is None:
-        alignment = align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
-    nodal_pressure = pressure_reader(plot, domains.lumen, mesh.lumen, coordinates)
+        alignment = _alignment(plot, stated, case)
     inlet: list[tuple[float, float]] = []
-    fields = derived_fields(
-        _mapped(plot, place, Mapper(mesh, rays), alignment, nodal_pressure, progress, inlet),
-        rays,
-        alignment.cycle_times,
-    )
+    mapped = _mapped(model, Mapper(model.mesh, rays), alignment, progress, inlet)
+    fields = derived_fields(mapped, rays, alignment.cycle_times)
     inflow, inlet_area = np.array(inlet).T
     _check_direction(plot, inflow, alignment, case)
-    checks = _plane_checks(plot, place, mesh, alignment, case, rays)
+    checks = _plane_checks(model, alignment, case, rays)
     return Reference(
         fields=fields,
         checks=checks.assign(inlet_flow_rate=("time", inflow), inlet_area=("time", inlet_area)),
         alignment=alignment,
-        description=_description(plot, alignment),
-        notes=(*plot.warnings, *domains.notes),
+        description=_description(plot, alignment) | _calcified(model),
+        notes=(*plot.warnings, *model.notes),
+        warnings=tuple(_doubts(stated, case, model)),
     )
 
 
+def _alignment(plot: Plot, stated: FebioReference, case: Case) -> Alignment:
+    times = plot.times * stated.time_unit
+    return align(times, stated.time_offset, case.inlet.period, case.solver.cycles)
+
+
+def _calcified(model: PlotModel) -> dict[str, str]:
+    """Extent of the calcified elements, for provenance."""
+    if not model.calcified:
+        return {}
+    return {"calcified": described(*extent(model.mesh.coordinates, model.calcified))}
+
+
+def _doubts(stated: FebioReference, case: Case, model: PlotModel) -> list[str]:
+    """Compare the calcified domains with the case's calcification, if the case names them."""
+    if stated.calcified is None:
+        return []
+    return doubts(case, model.mesh.coordinates, model.calcified)
+
+
 def _mapped(
-    plot: Plot,
-    place: Frame,
+    model: PlotModel,
     mapper: Mapper,
     alignment: Alignment,
-    nodal_pressure: Callable[[int], NDArray[np.float64]],
     progress: Progress | None,
     inlet: list[tuple[float, float]],
 ) -> Iterator[MappedState]:
     """Map state after state; flow rate and area of each inlet go to ``inlet``."""
     for done, state in enumerate(alignment.states.tolist(), start=1):
-        displacement = nodal_vectors(plot, DISPLACEMENT, state, place)
-        velocity = nodal_vectors(plot, VELOCITY, state, place)
-        pressure = nodal_pressure(state)
-        for name, values in (
-            ("velocity", velocity),
-            ("displacement", displacement),
-            ("pressure", pressure),
-        ):
-            if not np.all(np.isfinite(values)):
-                raise UnusableReferenceError(
-                    f"{plot.path}: {name} of state {state + 1} is not finite everywhere"
-                )
-        mapped = mapper.map_state(displacement, velocity, pressure)
+        mapped = mapper.map_state(*model.read(state))
         inlet.append((mapped.inflow, mapped.inlet_area))
         yield mapped
         if progress:
@@ -195,17 +185,15 @@ def _check_radius(plot: Plot, mesh: LumenMesh, case: Case) -> None:
         )
 
 
-def _plane_checks(
-    plot: Plot, place: Frame, mesh: LumenMesh, alignment: Alignment, case: Case, rays: Rays
-) -> xr.Dataset:
+def _plane_checks(model: PlotModel, alignment: Alignment, case: Case, rays: Rays) -> xr.Dataset:
     """Flow rates through planes at a few states, by surface integral."""
     sections = np.array(case.compare.cells.i) - 1
     few = np.unique(np.linspace(0, len(alignment.states) - 1, 5).astype(int))
-    grid = lumen_grid(mesh.lumen)
+    grid = lumen_grid(model.mesh.lumen)
     planes = np.empty((few.size, sections.size))
-    for row, state in enumerate(alignment.states[few]):
-        points = mesh.coordinates + nodal_vectors(plot, DISPLACEMENT, int(state), place)
-        velocity = nodal_vectors(plot, VELOCITY, int(state), place)
+    for row, state in enumerate(alignment.states[few].tolist()):
+        displacement, velocity, _ = model.read(state)
+        points = model.mesh.coordinates + displacement
         planes[row] = [plane_flow_rate(grid, points, velocity, float(x)) for x in rays.x[sections]]
     return xr.Dataset(
         {"plane_flow_rate": (("check_time", "check_x"), planes)},

@@ -37,6 +37,8 @@ class Reference:
         For provenance: file, software, mesh, states.
     notes : tuple of str
         What a reader must know.
+    warnings : tuple of str
+        What casts doubt on a comparison with it.
     sparse : bool
         Whether NaN stands for what the reference does not state, rather than for something wrong.
     cycle : mapping of str to float
@@ -49,6 +51,7 @@ class Reference:
     alignment: Alignment
     description: dict[str, Any]
     notes: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
     sparse: bool = False
     cycle: Mapping[str, float] = field(default_factory=dict)
 

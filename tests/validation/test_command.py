@@ -222,7 +222,7 @@ def test_a_false_reference_changes_just_the_rows_that_speak_of_it(tmp_path, quic
         reader = read(*arguments)
         return lambda state: 1.1 * reader(state)
 
-    monkeypatch.setattr("validation.febio_reference.pressure_reader", false_pressure)
+    monkeypatch.setattr("validation.plot_model.pressure_reader", false_pressure)
     assert compare.main([str(path), "--output", str(tmp_path / "false")]) == 0
     right, false = (pd.read_csv(tmp_path / name / "metrics.csv") for name in ("right", "false"))
     same = (right == false) | (right.isna() & false.isna())

@@ -222,7 +222,7 @@ def test_any_frame_gives_the_same_answers(axis, sign, turned):
     coordinates, displacement, velocity = placed(COARSE, place)
     mesh = lumen_mesh(place.points(coordinates), COARSE.lumen, COARSE.vessel_wall)
     state = Mapper(mesh, cells).map_state(
-        place.vectors(displacement), place.vectors(velocity), COARSE.nodal_pressure
+        place.displacements(displacement), place.velocities(velocity), COARSE.nodal_pressure
     )
     for found, expected in zip(state, mapped(COARSE, cells), strict=True):
         assert_allclose(found, expected, rtol=1e-9, atol=1e-12)
