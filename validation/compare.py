@@ -34,12 +34,15 @@ from validation.comparison import (
 )
 from validation.comparison_file import comparison_file
 from validation.confidence import confidence_rows
+from validation.curved_section import curved_section_rows
 from validation.errors import ValidationError
 from validation.metrics import Models, Row, models_of
 from validation.output import check_target, result_directory, write_json, write_metrics
+from validation.paraview import write_walls
 from validation.pooled_change import pooled_change_rows, without_rays
 from validation.profile_curves import CURVE, error_curves, profile_rows
 from validation.run import Watch, align_variants, run_variants, watching
+from validation.side_by_side import write_side_by_side
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
 COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -58,6 +61,7 @@ def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any])
         *metrics.cycle_error_rows(models, cells),
         *metrics.dominance_rows(models, cells),
         *assumption_rows(models, attributes),
+        *curved_section_rows(models, attributes),
         *profile_rows(models, attributes),
         *metrics.plane_rows(models, run.reference.checks),
         *metrics.inflow_rows(models, run.reference.checks, prescribed_inflow(run)),
@@ -76,10 +80,15 @@ def prescribed_inflow(run: VariantRun) -> NDArray[np.float64] | None:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Rows of the declared bands, and what else a user should see."""
+    """All rows of a comparison, and what a user should see besides."""
 
-    bands: list[Row]
+    rows: list[Row]
     warnings: list[str]
+
+    @property
+    def bands(self) -> list[Row]:
+        """Rows that judge a declared band."""
+        return [row for row in self.rows if row.status]
 
 
 def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache | None = None) -> Outcome:
@@ -103,7 +112,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
         write_json(directory / "provenance.json", account)
         with watch.step("reports"):
             write_reports(directory)
-    return Outcome([row for row in rows if row.status], [*watch.remarks, *account["warnings"]])
+    return Outcome(rows, [*watch.remarks, *account["warnings"]])
 
 
 def _compared(
@@ -127,6 +136,8 @@ def _compared(
                 both[CURVE] = error_curves(models, about)
             with watch.step("comparison.nc"):
                 stored.write(name, both)
+            with watch.step("files for ParaView"):
+                write_walls(directory, name, both)
             runs[name] = without_fields(run)
     ordered = [row for name in file.variants for row in rows[name]]
     baselines = json.loads(about["baselines"])
@@ -196,13 +207,19 @@ def main(argv: list[str] | None = None) -> int:
     try:
         cache = open_cache(arguments.fresh)
         files = [load_case_file(path) for path in arguments.cases]
-        for file, target in zip(files, targets(files, arguments.output), strict=True):
+        places = targets(files, arguments.output)
+        rows: dict[str, list[Row]] = {}
+        for file, target in zip(files, places, strict=True):
             outcome = compare_case(file, target, command, cache)
+            rows[file.name] = outcome.rows
             for warning in outcome.warnings:
                 print(f"warning: {warning}", file=sys.stderr)
             bands = outcome.bands
             broken |= any(row.status in (FAIL, MISSING) for row in bands)
             print(summary(file, target, bands))
+        if len(files) > 1:
+            written = write_side_by_side(places[0].parent, rows)
+            print(f"{len(files)} cases side by side: {', '.join(map(str, written))}")
     except EXPECTED as error:
         print(error, file=sys.stderr)
         return WRONG_INPUT

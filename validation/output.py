@@ -1,5 +1,6 @@
 """A result directory, written whole or not at all."""
 
+import fnmatch
 import json
 import math
 import os
@@ -15,6 +16,7 @@ import pandas as pd
 from validation.errors import ValidationError
 
 MARK = "provenance.json"  # every finished result has one
+PARAVIEW_FILES = ("rom_*.vtkhdf", "reference_*.vtkhdf")
 RESULT_FILES = {MARK, "comparison.nc", "metrics.csv", "metrics.json", "report.html", "report.pdf"}
 
 
@@ -43,11 +45,17 @@ def check_target(target: Path) -> None:
         raise ValidationError(f"{target}: is the current directory; choose another --output")
 
 
+def is_result_file(name: str) -> bool:
+    """Whether a file of this name belongs to a result."""
+    return name in RESULT_FILES or any(fnmatch.fnmatchcase(name, pattern) for pattern in PARAVIEW_FILES)
+
+
 def _check_content(target: Path, names: set[str]) -> None:
-    if not names or (MARK in names and names <= RESULT_FILES):
+    strange = {name for name in names if not is_result_file(name)}
+    if not names or (MARK in names and not strange):
         return
     if MARK in names:
-        others = ", ".join(sorted(names - RESULT_FILES))
+        others = ", ".join(sorted(strange))
         raise ValidationError(f"{target}: holds other files than a result ({others}); move them away")
     raise ValidationError(f"{target}: exists and is no result of a comparison; choose another --output")
 
