@@ -21,7 +21,6 @@ from validation.metrics import CELL_QUANTITIES
 
 Floats = NDArray[np.float64]
 
-COMPRESSION = 1
 MODELS = ("rom", "reference")
 
 
@@ -139,7 +138,6 @@ def write_walls(directory: Path, variant: str, both: xr.Dataset) -> None:
         writer.SetInputConnection(source.GetOutputPort())
         writer.SetFileName(str(path))
         writer.SetWriteAllTimeSteps(True)
-        writer.SetCompressionLevel(COMPRESSION)
         with _interrupts_later():
             done = writer.Write()
         if not done or not path.is_file():
