@@ -42,7 +42,8 @@ def print_summary(file: CaseFile) -> None:
 def summary(case: Case) -> str:
     """Describe a case in a line."""
     solver, bands = case.solver, len(case.compare.bands)
-    reference = "no reference" if case.reference is None else f"reference {case.reference.plot_file.name}"
+    files = () if case.reference is None else case.reference.files
+    reference = f"reference {', '.join(path.name for path in files)}" if files else "no reference"
     return (
         f"calcification {case.calcification.pattern}, {solver.n_x} x {solver.n_phi} cells, "
         f"{solver.cycles} cycles of {case.inlet.period:g} s, {reference}, "

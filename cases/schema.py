@@ -16,7 +16,7 @@ from cases.calcification import (
 from cases.comparison import Band, Cells, Compare
 from cases.inlet import FlowInlet, Inlet, PressureInlet, VelocityInlet
 from cases.outlet import NonReflectingOutlet, Outlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
-from cases.reference import FebioReference, RecordFile
+from cases.reference import FebioReference, RecordFile, Reference, TablesReference
 from cases.section import Section, told_apart_by
 from cases.solver_settings import (
     FEWEST_ROWS,
@@ -72,6 +72,7 @@ __all__ = [
     "SemiImplicitSolver",
     "Solver",
     "TableWall",
+    "TablesReference",
     "VelocityInlet",
     "Wall",
     "WindkesselOutlet",
@@ -118,7 +119,7 @@ class Case(Section):
         Title of the variant.
     geometry, blood, wall, calcification, inlet, outlet, solver : Section
         See their classes.
-    reference : FebioReference or None
+    reference : FebioReference, TablesReference or None
         The 3D results to compare with.
     compare : Compare
         Cells (on the solver's grid), times (of the inlet's cycle) and bands of the comparison.
@@ -132,7 +133,7 @@ class Case(Section):
     inlet: Annotated[Inlet, told_apart_by("kind")]
     outlet: Annotated[Outlet, told_apart_by("kind")]
     solver: Annotated[Solver, told_apart_by("scheme")]
-    reference: FebioReference | None = None
+    reference: Annotated[Reference, told_apart_by("kind")] | None = None
     compare: Compare = Field(default=Compare(), validate_default=True)
 
     @field_validator("wall")
@@ -213,7 +214,7 @@ class Case(Section):
         """Absolute paths of the files that the case was read from, besides the case file itself."""
         outlet, wall = self.outlet, row_wall(self.wall)
         paths = (
-            *(() if self.reference is None else self.reference.input_files),
+            *(() if self.reference is None else self.reference.files),
             wall.table.path if isinstance(wall, TableWall) else None,
             None if self.inlet.waveform is None else self.inlet.waveform.path,
             outlet.waveform.path if isinstance(outlet, PressureOutlet) and outlet.waveform else None,

@@ -53,8 +53,10 @@ def main() -> int:
         variant = chosen_variant(file, arguments.variant)
         stated = {"case": file.name, "title": file.title, "variant": variant, "case_yaml": file.text}
         case = file.variants[variant]
-        plot = None if case.reference is None else case.reference.plot_file
-        identity = run_identity(file.text, variant, [path for path in case.input_files if path != plot])
+        results = () if case.reference is None else case.reference.files
+        identity = run_identity(
+            file.text, variant, [path for path in case.input_files if path not in results]
+        )
         with progress_bar(f"{file.name} {variant}") as progress:
             done = run_to_file(case, arguments.output, identity, stated, arguments.resume, progress)
     except (CaseError, SolverError) as error:

@@ -25,7 +25,8 @@ def sources_digest(folders: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
-def _candidates() -> list[Path]:
+def cache_folders() -> list[Path]:
+    """Folders for what can be computed anew, the preferred one first; none need exist."""
     stated = os.environ.get("XDG_CACHE_HOME")
     home = Path("~").expanduser()
     own = f"{FOLDER}-{os.getuid()}" if hasattr(os, "getuid") else FOLDER
@@ -43,7 +44,7 @@ def _usable(folder: Path) -> bool:
 
 def usable_folder(name: str) -> Path | None:
     """First place for cached files of this kind that can be written to, made; None if there is none."""
-    return next((place / name for place in _candidates() if _usable(place / name)), None)
+    return next((place / name for place in cache_folders() if _usable(place / name)), None)
 
 
 def keep_kernels() -> None:

@@ -30,7 +30,8 @@ from validation.output import MARK, write_json
 from validation.rays import rays
 from validation.reduced_model import run_reduced_model
 from validation.reference import Reference
-from validation.run import REFERENCES, Watch, watching
+from validation.reference_kinds import REFERENCE_KINDS
+from validation.run import Watch, watching
 from validation.statistics import largest, rms
 from validation.thesis_sectors import sector_errors
 
@@ -134,7 +135,9 @@ def ablation_rows(file: CaseFile, table: Path | None, watch: Watch) -> Iterator[
         models = models_between(case)
         grid = grid_of(case)
         with watch.step(f"{variant}: 3D onto cells") as progress:
-            reference = REFERENCES[case.reference.kind](case, rays(grid.x, grid.phi), progress)
+            reference = REFERENCE_KINDS[case.reference.kind].read(
+                case, rays(grid.x, grid.phi), progress, None
+            )
         for model, changed in models.items():
             with watch.step(f"{variant}: {model}"):
                 yield ablation_row(variant, model, changed, reference, table)

@@ -8,6 +8,7 @@ from cases.comparison import Band
 from cases.schema import Case
 from solver.locality import locality_warning
 from validation.alignment import WHOLE
+from validation.bootstrap import SEED
 from validation.comparison import VariantRun
 from validation.instants import nearest_states, wanted_instants
 from validation.provenance import provenance
@@ -72,6 +73,7 @@ def described(
     """Provenance of a finished comparison, with notes and warnings."""
     inputs = [path for case in file.variants.values() for path in case.input_files]
     return provenance(file.path, inputs, command) | {
+        "seeds": {"bootstrap": SEED},
         "wall_times_s": wall_times,
         "notes": [*notes, *notes_of(runs)],
         "warnings": warnings_of(runs),

@@ -5,7 +5,7 @@ number of cycles so that its last state falls into the reduced model's last cycl
 model's time. Nothing else is shifted.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +40,15 @@ class Alignment:
     rom_times: NDArray[np.float64]
     cycles_later: int
     coverage: float
+
+    def at(self, which: NDArray[np.int64]) -> "Alignment":
+        """Return the alignment of some of its states."""
+        return replace(
+            self,
+            states=self.states[which],
+            cycle_times=self.cycle_times[which],
+            rom_times=self.rom_times[which],
+        )
 
 
 def align(times: NDArray[np.float64], offset: float, period: float, cycles: int) -> Alignment:

@@ -16,15 +16,14 @@ OK, FAIL, MISSING = "OK", "FAIL", "MISSING"
 def judged_value(models: Models, band: Band) -> float | None:
     """Value that a band judges, over all cells and states; None where it could not be computed."""
     if band.quantity in CYCLE_QUANTITIES:
-        measure = CYCLE_QUANTITIES[band.quantity]
-        rom, reference = np.array([measure(models.rom)]), np.array([measure(models.reference)])
-        return pooled(band.statistic, rom, reference)
+        ours, theirs = models.of_cycle(band.quantity)
+        return None if theirs is None else pooled(band.statistic, np.array([ours]), np.array([theirs]))
     if band.quantity not in models.rom or band.quantity not in models.reference:
         return None
     rom, reference = models.pair(band.quantity)
     if "y" in FIELDS[band.quantity].dims:  # on the wall both velocities are zero
         rom, reference = rom[..., :-1], reference[..., :-1]
-    return pooled(band.statistic, rom, reference)
+    return models.statistic(band.statistic, rom, reference)
 
 
 def band_rows(models: Models, case: Case) -> Iterator[Row]:

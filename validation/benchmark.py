@@ -25,8 +25,8 @@ from solver.case_run import walk
 from solver.errors import SolverError
 from solver.from_case import model_of
 from solver.godunov_case import THREADS
+from validation.output import write_text
 from validation.provenance import provenance
-from validation.thesis_tables.store import write_text
 
 ROOT = Path(__file__).parents[1]
 CASE = ROOT / "benchmarks" / "thesis.yaml"

@@ -1,14 +1,16 @@
 """``python -m validation.compare CASE.yaml``: run the reduced model, read the reference, score, report."""
 
 import argparse
+import json
 import shlex
 import signal
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from cases.case_file import CaseFile, load_case_file
@@ -16,33 +18,51 @@ from cases.errors import CaseError
 from febio_io.errors import FebioError
 from reports import ReportError, write_reports
 from solver.errors import SolverError
-from solver.files import write_netcdf
 from solver.from_case import inlet_signal
 from validation import metrics
 from validation.account import described
+from validation.assumptions import assumption_rows
 from validation.bands import FAIL, MISSING, OK, band_rows
-from validation.comparison import VariantRun, at_common_instants, check_variants, combine
+from validation.cache import Cache, open_cache
+from validation.comparison import (
+    VariantRun,
+    at_common_instants,
+    attributes,
+    both_models,
+    check_variants,
+    without_fields,
+)
+from validation.comparison_file import comparison_file
+from validation.confidence import confidence_rows
+from validation.curved_section import curved_section_rows
 from validation.errors import ValidationError
-from validation.metrics import Row, models_of
+from validation.metrics import Models, Row, models_of
 from validation.output import check_target, result_directory, write_json, write_metrics
-from validation.run import run_variants, watching
+from validation.paraview import write_walls
+from validation.pooled_change import pooled_change_rows, without_rays
+from validation.profile_curves import CURVE, error_curves, profile_rows
+from validation.run import Watch, align_variants, run_variants, watching
+from validation.side_by_side import write_side_by_side
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
 COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
-def variant_rows(comparison: xr.Dataset, name: str, run: VariantRun) -> list[Row]:
+def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any]) -> list[Row]:
     """All rows of one variant, its bands' among them."""
-    models = models_of(comparison, name)
-    cells = (comparison.attrs["compare_i"], comparison.attrs["compare_j"])
+    cells = (attributes["compare_i"], attributes["compare_j"])
     return [
         *band_rows(models, run.case),
         *metrics.pooled_rows(models),
+        *confidence_rows(models),
         *metrics.cycle_rows(models),
         *metrics.check_rows(models),
-        *metrics.value_rows(models, cells, comparison.attrs["compare_times_s"]),
+        *metrics.value_rows(models, cells, attributes["compare_times_s"]),
         *metrics.cycle_error_rows(models, cells),
         *metrics.dominance_rows(models, cells),
+        *assumption_rows(models, attributes),
+        *curved_section_rows(models, attributes),
+        *profile_rows(models, attributes),
         *metrics.plane_rows(models, run.reference.checks),
         *metrics.inflow_rows(models, run.reference.checks, prescribed_inflow(run)),
         *metrics.cost_rows(models, run.rom.description, run.reference.description),
@@ -50,7 +70,9 @@ def variant_rows(comparison: xr.Dataset, name: str, run: VariantRun) -> list[Row
 
 
 def prescribed_inflow(run: VariantRun) -> NDArray[np.float64] | None:
-    """Flow rate that the case prescribes at the 3D inlet, m³/s; None where it prescribes pressure."""
+    """Flow rate that the case prescribes at the 3D inlet, m³/s; None where there is none to compare."""
+    if "inlet_flow_rate" not in run.reference.checks:
+        return None
     signal = inlet_signal(run.case)(run.reference.alignment.cycle_times)
     if run.case.inlet.kind == "velocity":
         return np.asarray(signal * run.reference.checks["inlet_area"].to_numpy())
@@ -59,13 +81,18 @@ def prescribed_inflow(run: VariantRun) -> NDArray[np.float64] | None:
 
 @dataclass(frozen=True)
 class Outcome:
-    """Rows of the declared bands, and warnings that cast doubt on them."""
+    """All rows of a comparison, and what a user should see besides."""
 
-    bands: list[Row]
+    rows: list[Row]
     warnings: list[str]
 
+    @property
+    def bands(self) -> list[Row]:
+        """Rows that judge a declared band."""
+        return [row for row in self.rows if row.status]
 
-def compare_case(file: CaseFile, target: Path, command: list[str]) -> Outcome:
+
+def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache | None = None) -> Outcome:
     """Run one case file and leave its result in ``target``; see ``harness`` for what that holds.
 
     Returns
@@ -78,20 +105,45 @@ def compare_case(file: CaseFile, target: Path, command: list[str]) -> Outcome:
         For input that is wrong; ``target`` is then as it was.
     """
     check_variants(file.variants)
-    with watching() as watch, result_directory(target) as directory:
-        runs, notes = at_common_instants(run_variants(file.variants, watch))
+    with watching(cache) as watch, result_directory(target) as directory:
+        rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):
-            comparison = combine(file, runs)
-            rows = [row for name, run in runs.items() for row in variant_rows(comparison, name, run)]
-            rows += metrics.change_rows(rows, comparison.attrs["baseline"])
             write_metrics(directory, metrics.to_frame(rows))
-        with watch.step("comparison.nc"):
-            write_netcdf(comparison, directory / "comparison.nc")
-        account = described(file, runs, watch.wall_times, command, notes)
+        account = described(file, runs, watch.wall_times, command, [*watch.remarks, *notes])
         write_json(directory / "provenance.json", account)
         with watch.step("reports"):
             write_reports(directory)
-    return Outcome([row for row in rows if row.status], account["warnings"])
+    return Outcome(rows, [*watch.remarks, *account["warnings"]])
+
+
+def _compared(
+    file: CaseFile, directory: Path, watch: Watch
+) -> tuple[list[Row], dict[str, VariantRun], list[str]]:
+    """Run all variants; leave comparison.nc. Returns all rows, the runs without their fields, and notes."""
+    alignments, notes = at_common_instants(file.variants, align_variants(file.variants))
+    times = alignments[next(iter(file.variants))].cycle_times
+    about = attributes(file, times)
+    rows: dict[str, list[Row]] = {}
+    runs: dict[str, VariantRun] = {}
+    compared: dict[str, Models] = {}
+    with comparison_file(directory / "comparison.nc", list(file.variants), about) as stored:
+        for name, run in run_variants(file.variants, alignments, watch):
+            both = both_models(run, times)
+            with watch.step("metrics"):
+                told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
+                models = models_of(file.name, name, both, about["period_s"], **told)
+                rows[name] = variant_rows(models, run, about)
+                compared[name] = without_rays(models)
+                both[CURVE] = error_curves(models, about)
+            with watch.step("comparison.nc"):
+                stored.write(name, both)
+            with watch.step("files for ParaView"):
+                write_walls(directory, name, both)
+            runs[name] = without_fields(run)
+    ordered = [row for name in file.variants for row in rows[name]]
+    baselines = json.loads(about["baselines"])
+    changes = [*metrics.change_rows(ordered, baselines), *pooled_change_rows(compared, baselines)]
+    return ordered + changes, {name: runs[name] for name in file.variants}, notes
 
 
 def summary(file: CaseFile, target: Path, bands: list[Row]) -> str:
@@ -113,6 +165,9 @@ def _arguments(argv: list[str]) -> argparse.Namespace:
         type=Path,
         metavar="DIR",
         help="result directory (default: results/NAME; with several cases: DIR/NAME)",
+    )
+    parser.add_argument(
+        "--fresh", action="store_true", help="compute everything, whatever earlier runs left in the cache"
     )
     parser.add_argument("--check", action="store_true", help="exit 1 unless every band holds")
     return parser.parse_args(argv)
@@ -151,14 +206,21 @@ def main(argv: list[str] | None = None) -> int:
     broken = False
     signal.signal(signal.SIGTERM, _interrupt)
     try:
+        cache = open_cache(arguments.fresh)
         files = [load_case_file(path) for path in arguments.cases]
-        for file, target in zip(files, targets(files, arguments.output), strict=True):
-            outcome = compare_case(file, target, command)
+        places = targets(files, arguments.output)
+        rows: dict[str, list[Row]] = {}
+        for file, target in zip(files, places, strict=True):
+            outcome = compare_case(file, target, command, cache)
+            rows[file.name] = outcome.rows
             for warning in outcome.warnings:
                 print(f"warning: {warning}", file=sys.stderr)
             bands = outcome.bands
             broken |= any(row.status in (FAIL, MISSING) for row in bands)
             print(summary(file, target, bands))
+        if len(files) > 1:
+            written = write_side_by_side(places[0].parent, rows)
+            print(f"{len(files)} cases side by side: {', '.join(map(str, written))}")
     except EXPECTED as error:
         print(error, file=sys.stderr)
         return WRONG_INPUT

@@ -1,21 +1,30 @@
-"""Both models of every variant on the same points, as one dataset."""
+"""Both models of every variant on the same points, at the same instants."""
 
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from cases.case_file import CaseFile
-from cases.schema import Case, NoCalcification
+from cases.schema import Case, NoCalcification, TablesReference
 from solver.from_case import calcified_cells
 from solver.result import CONVENTIONS
+from validation.alignment import Alignment
 from validation.errors import ValidationError
 from validation.instants import common_states, nearest_states, wanted_instants
 from validation.reduced_model import ReducedModelRun
 from validation.reference import Reference
+
+_AXES = {
+    "time": ("s", "time in the cycle"),
+    "x": ("m", "distance from the inlet"),
+    "phi": ("rad", "azimuthal angle"),
+    "y": ("1", "distance from the axis over the radius"),
+}
 
 
 @dataclass(frozen=True)
@@ -27,12 +36,37 @@ class VariantRun:
     reference: Reference
 
 
+def baselines_of(file: CaseFile) -> dict[str, str]:
+    """Variant without calcification that each variant's change is counted from.
+
+    It is the first one whose reference is of the same kind and simulation; a variant without such a
+    baseline is left out.
+    """
+    healthy = [n for n, case in file.variants.items() if isinstance(case.calcification, NoCalcification)]
+    found = {}
+    for name, case in file.variants.items():
+        same = [other for other in healthy if _source(file.variants[other]) == _source(case)]
+        if same:
+            found[name] = same[0]
+    return found
+
+
+def _source(case: Case) -> tuple[str, str]:
+    """Kind of a reference and which simulation it holds."""
+    reference = case.reference
+    if reference is None:
+        return "", ""
+    return reference.kind, reference.simulation if isinstance(reference, TablesReference) else ""
+
+
+def _is_sparse(case: Case) -> bool:
+    """Whether the reference states values at some cells only, and NaN elsewhere."""
+    return isinstance(case.reference, TablesReference)
+
+
 def baseline_of(file: CaseFile) -> str:
     """Name of the first variant without calcification, or "" if there is none."""
-    for name, case in file.variants.items():
-        if isinstance(case.calcification, NoCalcification):
-            return name
-    return ""
+    return next(iter(baselines_of(file).values()), "")
 
 
 def check_variants(cases: Mapping[str, Case]) -> None:
@@ -64,7 +98,9 @@ def check_variants(cases: Mapping[str, Case]) -> None:
                 )
 
 
-def at_common_instants(runs: Mapping[str, VariantRun]) -> tuple[dict[str, VariantRun], list[str]]:
+def at_common_instants(
+    cases: Mapping[str, Case], alignments: Mapping[str, Alignment]
+) -> tuple[dict[str, Alignment], list[str]]:
     """Keep the states at instants that all variants' references have; say what was left out.
 
     Raises
@@ -72,56 +108,24 @@ def at_common_instants(runs: Mapping[str, VariantRun]) -> tuple[dict[str, Varian
     ValidationError
         If they share too few.
     """
-    period = next(iter(runs.values())).case.inlet.period
-    times = [run.reference.alignment.cycle_times for run in runs.values()]
+    period = next(iter(cases.values())).inlet.period
+    times = [alignment.cycle_times for alignment in alignments.values()]
     kept, notes = {}, []
-    for (name, run), states in zip(runs.items(), common_states(times, period), strict=True):
-        left = run.reference.alignment.cycle_times.size - states.size
+    for (name, alignment), states in zip(alignments.items(), common_states(times, period), strict=True):
+        left = alignment.cycle_times.size - states.size
         if left:
             notes.append(
                 f"{name}: {left} states are left out, at instants that other variants' references lack"
             )
-        kept[name] = _restricted(run, states)
+        kept[name] = alignment.at(states)
     return kept, notes
 
 
-def _restricted(run: VariantRun, states: NDArray[np.int64]) -> VariantRun:
-    reference, alignment = run.reference, run.reference.alignment
-    instants = alignment.cycle_times[states]
-    planes = np.isin(reference.checks["check_time"].to_numpy(), instants)
-    return replace(
-        run,
-        rom=replace(run.rom, fields=run.rom.fields.isel(time=states)),
-        reference=replace(
-            reference,
-            fields=reference.fields.isel(time=states),
-            checks=reference.checks.isel(time=states, check_time=planes),
-            alignment=replace(
-                alignment,
-                states=alignment.states[states],
-                cycle_times=instants,
-                rom_times=alignment.rom_times[states],
-            ),
-        ),
-    )
+def both_models(run: VariantRun, times: NDArray[np.float64]) -> xr.Dataset:
+    """One variant on (time, x, phi, y): ``rom_<field>``, ``reference_<field>``, wall.
 
-
-def combine(file: CaseFile, runs: Mapping[str, VariantRun]) -> xr.Dataset:
-    """One dataset on (variant, time, x, phi, y): ``rom_<field>``, ``reference_<field>``, wall.
-
-    The runs share their instants, see :func:`at_common_instants`.
+    ``times`` are those of the first variant: instants that variants share differ by round-off.
     """
-    first = next(iter(runs.values()))
-    times = first.reference.alignment.cycle_times
-    stacked = xr.concat(
-        [_both_models(run, times) for run in runs.values()],
-        dim=xr.Variable("variant", np.array(list(runs), dtype=object)),
-        combine_attrs="drop_conflicts",
-    )
-    return _described(stacked, file, first.case, times)
-
-
-def _both_models(run: VariantRun, times: np.ndarray) -> xr.Dataset:
     rom = run.rom.fields.rename({name: f"rom_{name}" for name in run.rom.fields.data_vars})
     reference = run.reference.fields
     reference = reference.rename({name: f"reference_{name}" for name in reference.data_vars})
@@ -129,18 +133,34 @@ def _both_models(run: VariantRun, times: np.ndarray) -> xr.Dataset:
     calcified = calcified_cells(run.case).astype(np.int8)
     both["wall_stiffness"] = run.rom.stiffness
     both["calcified"] = (("x", "phi"), calcified, {"units": "1", "long_name": "inside the calcification"})
+    for axis, (unit, words) in _AXES.items():
+        both[axis].attrs = {"units": unit, "long_name": words}
     return both
 
 
-def _described(dataset: xr.Dataset, file: CaseFile, case: Case, times: np.ndarray) -> xr.Dataset:
+def without_fields(run: VariantRun) -> VariantRun:
+    """Return what describes a run, without its fields."""
+    nothing = xr.Dataset()
+    return replace(
+        run,
+        rom=replace(run.rom, fields=nothing),
+        reference=replace(run.reference, fields=nothing),
+    )
+
+
+def attributes(file: CaseFile, times: NDArray[np.float64]) -> dict[str, Any]:
+    """Return the global attributes of a comparison at these instants of the cycle.
+
+    Raises
+    ------
+    ValidationError
+        If no instant to be tabulated is near any of them.
+    """
+    case = next(iter(file.variants.values()))
     instants = nearest_states(wanted_instants(case), times)
     if not instants:
         raise ValidationError("compare.times: the reference has no state near any of them")
-    dataset["time"].attrs = {"units": "s", "long_name": "time in the cycle"}
-    dataset["x"].attrs = {"units": "m", "long_name": "distance from the inlet"}
-    dataset["phi"].attrs = {"units": "rad", "long_name": "azimuthal angle"}
-    dataset["y"].attrs = {"units": "1", "long_name": "distance from the axis over the radius"}
-    dataset.attrs = {
+    return {
         "Conventions": CONVENTIONS,
         "case": file.name,
         "title": file.title,
@@ -150,6 +170,9 @@ def _described(dataset: xr.Dataset, file: CaseFile, case: Case, times: np.ndarra
         "compare_j": np.array(case.compare.cells.j),
         "compare_time_names": json.dumps(list(instants)),
         "compare_times_s": times[list(instants.values())],
+        "sparse_reference": int(
+            any(isinstance(c.reference, TablesReference) for c in file.variants.values())
+        ),
+        "baselines": json.dumps(baselines_of(file)),
         "case_yaml": file.text,
     }
-    return dataset

@@ -1,8 +1,9 @@
-"""Linear finite elements: shape functions, gradients and faces, as numba kernels.
+"""Linear finite elements: their interpolation as one polynomial, and their faces.
 
 Four kinds, node order as in VTK: hexahedron (8), wedge (6), tetrahedron (4), pyramid (5).
-Natural coordinates: hexahedron and pyramid in [−1, 1]³, wedge in the unit triangle × [−1, 1],
-tetrahedron in the unit simplex.
+Natural coordinates (r, s, t): hexahedron and pyramid in [−1, 1]³, wedge in the unit triangle × [−1, 1],
+tetrahedron in the unit simplex. In all of them interpolation is a polynomial in the eight monomials
+1, r, s, t, rs, st, rt, rst; only its coefficients tell the kinds apart.
 """
 
 import numpy as np
@@ -23,97 +24,85 @@ FACES: dict[int, tuple[tuple[int, ...], ...]] = {
 }
 
 Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+_POWERS = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1))
+_CUBE = ((-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1))
+_PRISM = ((0, 0, -1), (1, 0, -1), (0, 1, -1), (0, 0, 1), (1, 0, 1), (0, 1, 1))
+_SIMPLEX = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+
+
+def _coefficients(corners: tuple[tuple[int, ...], ...], monomials: list[int]) -> Array:
+    """Matrix (8, 8) from values at corners (natural coordinates) to coefficients of some monomials."""
+    powers = np.array([_POWERS[m] for m in monomials])
+    values = np.prod(np.array(corners, dtype=float)[:, None, :] ** powers, axis=2)
+    matrix = np.zeros((8, 8))
+    matrix[monomials, : len(corners)] = np.linalg.inv(values)
+    return matrix
+
+
+def _collapsed(matrix: Array) -> Array:
+    """Matrix of a pyramid: the top face of a hexahedron drawn together into the apex."""
+    found = np.zeros_like(matrix)
+    found[:, :4] = matrix[:, :4]
+    found[:, 4] = matrix[:, 4:].sum(axis=1)
+    return found
+
+
+_HEXAHEDRON = _coefficients(_CUBE, list(range(8)))
+TO_POLYNOMIAL = np.stack(  # by kind: coefficients (8,) = matrix @ nodal values (8,)
+    [
+        _HEXAHEDRON,
+        _coefficients(_PRISM, [0, 1, 2, 3, 5, 6]),
+        _coefficients(_SIMPLEX, [0, 1, 2, 3]),
+        _collapsed(_HEXAHEDRON),
+    ]
+)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _quadrilateral(r: float, s: float, shape: Array, slope: Array) -> None:
-    """Bilinear functions of (r, s) and their slopes, into entries 0–3."""
-    for a in range(4):
-        ra = -1.0 if a in (0, 3) else 1.0
-        sa = -1.0 if a in (0, 1) else 1.0
-        shape[a] = 0.25 * (1.0 + ra * r) * (1.0 + sa * s)
-        slope[a, 0] = 0.25 * ra * (1.0 + sa * s)
-        slope[a, 1] = 0.25 * (1.0 + ra * r) * sa
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _triangle(r: float, s: float, shape: Array, slope: Array) -> None:
-    """Linear functions of (r, s) and their slopes, into entries 0–2."""
-    shape[0], shape[1], shape[2] = 1.0 - r - s, r, s
-    slope[0, 0], slope[0, 1] = -1.0, -1.0
-    slope[1, 0], slope[1, 1] = 1.0, 0.0
-    slope[2, 0], slope[2, 1] = 0.0, 1.0
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _extrude(n: int, t: float, shape: Array, slope: Array) -> None:
-    """Turn n functions of (r, s) into 2n of (r, s, t), linear in t over [−1, 1]."""
-    low, high = 0.5 * (1.0 - t), 0.5 * (1.0 + t)
-    for a in range(n):
-        base, dr, ds = shape[a], slope[a, 0], slope[a, 1]
-        shape[a], shape[a + n] = base * low, base * high
-        slope[a, 0], slope[a + n, 0] = dr * low, dr * high
-        slope[a, 1], slope[a + n, 1] = ds * low, ds * high
-        slope[a, 2], slope[a + n, 2] = -0.5 * base, 0.5 * base
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def shape_functions(kind: int, natural: Array, shape: Array, slope: Array) -> int:
-    """Shape functions and their slopes at a point of an element.
+def expand(kinds: Integers, nodes: Integers, nodal: Array, matrices: Array, coefficients: Array) -> None:
+    """Coefficients of the interpolation in every element.
 
     Parameters
     ----------
-    kind : int
+    kinds : ndarray (n_e,)
         HEXAHEDRON, WEDGE, TETRAHEDRON or PYRAMID.
-    natural : ndarray (3,)
-        Natural coordinates.
-    shape : ndarray (8,)
-        Receives N_a.
-    slope : ndarray (8, 3)
-        Receives ∂N_a/∂natural.
-
-    Returns
-    -------
-    int
-        Number of nodes.
+    nodes : ndarray (n_e, 8)
+        Node indices, padded with −1.
+    nodal : ndarray (n_nodes, m)
+        Nodal values.
+    matrices : ndarray (4, 8, 8)
+        TO_POLYNOMIAL.
+    coefficients : ndarray (n_e, 8, m)
+        Receives the coefficients of 1, r, s, t, rs, st, rt, rst.
     """
-    r, s, t = natural[0], natural[1], natural[2]
+    coefficients[:] = 0.0
+    for e in range(kinds.size):
+        for a in range(8):
+            node = nodes[e, a]
+            if node < 0:
+                break
+            for m in range(8):
+                weight = matrices[kinds[e], m, a]
+                if weight != 0.0:
+                    for k in range(nodal.shape[1]):
+                        coefficients[e, m, k] += weight * nodal[node, k]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def centre(kind: int) -> tuple[float, float, float]:
+    """Natural coordinates of the middle of an element."""
     if kind == TETRAHEDRON:
-        _triangle(r, s, shape, slope)
-        shape[0] -= t
-        shape[3] = t
-        for a in range(4):
-            slope[a, 2] = 0.0
-        slope[0, 2], slope[3, 2] = -1.0, 1.0
-        slope[3, 0], slope[3, 1] = 0.0, 0.0
-        return 4
+        return 0.25, 0.25, 0.25
     if kind == WEDGE:
-        _triangle(r, s, shape, slope)
-        _extrude(3, t, shape, slope)
-        return 6
-    _quadrilateral(r, s, shape, slope)
-    _extrude(4, t, shape, slope)
-    if kind == PYRAMID:  # the top face of a hexahedron drawn together into the apex
-        for a in range(5, 8):
-            shape[4] += shape[a]
-            for k in range(3):
-                slope[4, k] += slope[a, k]
-        return 5
-    return 8
+        return 1.0 / 3.0, 1.0 / 3.0, 0.0
+    return 0.0, 0.0, 0.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def centre(kind: int, natural: Array) -> None:
-    """Set ``natural`` to the middle of an element."""
-    middle = 1.0 / 3.0 if kind == WEDGE else 0.25 if kind == TETRAHEDRON else 0.0
-    natural[0], natural[1] = middle, middle
-    natural[2] = 0.25 if kind == TETRAHEDRON else 0.0
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def outside_by(kind: int, natural: Array) -> float:
+def outside_by(kind: int, r: float, s: float, t: float) -> float:
     """How far natural coordinates lie outside their element; 0 or less inside."""
-    r, s, t = float(natural[0]), float(natural[1]), float(natural[2])
     if kind == TETRAHEDRON:
         return max(max(-r, -s), max(-t, r + s + t - 1.0))
     if kind == WEDGE:

@@ -1,6 +1,7 @@
 """``reference.kind: febio``: a FEBio plot file on the cells of the reduced model."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -11,23 +12,14 @@ from cases.schema import Case, FebioReference
 from febio_io.xplt import Plot, open_plot
 from solver.from_case import inlet_signal
 from validation.alignment import Alignment, align
+from validation.calcified_extent import described, doubts, extent
 from validation.derived import derived_fields
 from validation.errors import UnusableReferenceError
-from validation.febio_log import account_of_log
-from validation.febio_records import account_of_record
-from validation.frame import Frame, frame
+from validation.febio_run import account_of_run
 from validation.mapping import MappedState, Mapper
-from validation.mesh import LumenMesh, lumen_mesh
+from validation.mesh import LumenMesh
 from validation.plane_section import lumen_grid, plane_flow_rate
-from validation.plot_file import (
-    DISPLACEMENT,
-    VELOCITY,
-    blocks,
-    choose_domains,
-    nodal_vectors,
-    pressure_reader,
-    require,
-)
+from validation.plot_model import PlotModel, plot_model
 from validation.provenance import shown_path
 from validation.rays import Rays
 from validation.reference import Progress, Reference
@@ -36,7 +28,24 @@ RADIUS_TOLERANCE = 1e-2  # and the mean radius of its unloaded interface by this
 LENGTH_TOLERANCE = 1e-3  # the mesh's length may differ from the case's by this share
 
 
-def read_febio(case: Case, rays: Rays, progress: Progress | None = None) -> Reference:
+def align_febio(case: Case) -> Alignment:
+    """States of a FEBio run within its last cycle.
+
+    Raises
+    ------
+    FebioError
+        If the plot file cannot be read.
+    UnusableReferenceError
+        If it has too few states.
+    """
+    stated = _stated(case)
+    with _naming(stated), open_plot(stated.plot_file) as plot:
+        return _alignment(plot, stated, case)
+
+
+def read_febio(
+    case: Case, rays: Rays, progress: Progress | None = None, alignment: Alignment | None = None
+) -> Reference:
     """Map the last cycle of a FEBio run.
 
     Parameters
@@ -47,6 +56,8 @@ def read_febio(case: Case, rays: Rays, progress: Progress | None = None) -> Refe
         Where to.
     progress : callable, optional
         Called with (states done, states).
+    alignment : Alignment, optional
+        States to map; default :func:`align_febio`.
 
     Raises
     ------
@@ -56,92 +67,102 @@ def read_febio(case: Case, rays: Rays, progress: Progress | None = None) -> Refe
         If it lacks what the mapping needs, or does not fit the case; if the log or a data record is that of
         another run.
     """
-    stated = case.reference
-    if not isinstance(stated, FebioReference):
+    stated = _stated(case)
+    with _naming(stated), open_plot(stated.plot_file) as plot:
+        return _read(plot, stated, case, rays, progress, alignment)
+
+
+def _stated(case: Case) -> FebioReference:
+    if not isinstance(case.reference, FebioReference):
         raise UnusableReferenceError("the case states no FEBio reference")
+    return case.reference
+
+
+@contextmanager
+def _naming(stated: FebioReference) -> Iterator[None]:
+    """Name the plot file in what is raised."""
     try:
-        with open_plot(stated.plot_file) as plot:
-            return _read(plot, stated, case, rays, progress)
+        yield
     except UnusableReferenceError as error:
         if str(stated.plot_file) in str(error):
             raise
         raise UnusableReferenceError(f"{stated.plot_file}: {error}") from error
 
 
-def _read(plot: Plot, stated: FebioReference, case: Case, rays: Rays, progress: Progress | None) -> Reference:
-    require(plot)
-    domains = choose_domains(plot, stated)
-    place = frame(stated.axis, stated.phi_zero, stated.origin)
-    coordinates = place.points(plot.mesh.coordinates)
-    mesh = lumen_mesh(coordinates, blocks(plot, domains.lumen), blocks(plot, domains.wall))
-    _check_length(plot, mesh, case)
-    _check_radius(plot, mesh, case)
-    run = _beside(plot, stated)
-    alignment = align(plot.times, stated.time_offset, case.inlet.period, case.solver.cycles)
-    pressure = pressure_reader(plot, domains.lumen, mesh.lumen, coordinates)
-    mapper, mapped = Mapper(mesh, rays), []
-    for done, state in enumerate(alignment.states, start=1):
-        displacement = nodal_vectors(plot, DISPLACEMENT, int(state), place)
-        velocity = nodal_vectors(plot, VELOCITY, int(state), place)
-        nodal_pressure = pressure(int(state))
-        for name, values in (
-            ("velocity", velocity),
-            ("displacement", displacement),
-            ("pressure", nodal_pressure),
-        ):
-            if not np.all(np.isfinite(values)):
-                raise UnusableReferenceError(
-                    f"{plot.path}: {name} of state {state + 1} is not finite everywhere"
-                )
-        mapped.append(mapper.map_state(displacement, velocity, nodal_pressure))
+def _read(
+    plot: Plot,
+    stated: FebioReference,
+    case: Case,
+    rays: Rays,
+    progress: Progress | None,
+    alignment: Alignment | None,
+) -> Reference:
+    model = plot_model(plot, stated)
+    _check_length(plot, model.mesh, case)
+    _check_radius(plot, model.mesh, case)
+    run = account_of_run(plot, stated)
+    if alignment is None:
+        alignment = _alignment(plot, stated, case)
+    inlet: list[tuple[float, float]] = []
+    mapped = _mapped(model, Mapper(model.mesh, rays), alignment, progress, inlet)
+    fields = derived_fields(mapped, rays, alignment.cycle_times)
+    inflow, inlet_area = np.array(inlet).T
+    _check_direction(plot, inflow, alignment, case)
+    checks = _plane_checks(model, alignment, case, rays)
+    return Reference(
+        fields=fields,
+        checks=checks.assign(inlet_flow_rate=("time", inflow), inlet_area=("time", inlet_area)),
+        alignment=alignment,
+        description=_description(plot, alignment) | _calcified(model) | run.facts,
+        notes=(*plot.warnings, *model.notes, *run.notes),
+        warnings=(*_doubts(stated, case, model), *run.warnings),
+    )
+
+
+def _alignment(plot: Plot, stated: FebioReference, case: Case) -> Alignment:
+    times = plot.times * stated.time_unit
+    return align(times, stated.time_offset, case.inlet.period, case.solver.cycles)
+
+
+def _calcified(model: PlotModel) -> dict[str, str]:
+    """Extent of the calcified elements, for provenance."""
+    if not model.calcified:
+        return {}
+    return {"calcified": described(*extent(model.mesh.coordinates, model.calcified))}
+
+
+def _doubts(stated: FebioReference, case: Case, model: PlotModel) -> list[str]:
+    """Compare the calcified domains with the case's calcification, if the case names them."""
+    if stated.calcified is None:
+        return []
+    return doubts(case, model.mesh.coordinates, model.calcified)
+
+
+def _mapped(
+    model: PlotModel,
+    mapper: Mapper,
+    alignment: Alignment,
+    progress: Progress | None,
+    inlet: list[tuple[float, float]],
+) -> Iterator[MappedState]:
+    """Map state after state; flow rate and area of each inlet go to ``inlet``."""
+    for done, state in enumerate(alignment.states.tolist(), start=1):
+        mapped = mapper.map_state(*model.read(state))
+        inlet.append((mapped.inflow, mapped.inlet_area))
+        yield mapped
         if progress:
             progress(done, len(alignment.states))
-    _check_direction(plot, mapped, alignment, case)
-    return Reference(
-        fields=derived_fields(mapped, rays, alignment.cycle_times),
-        checks=_checks(plot, place, mesh, mapped, alignment, case, rays),
-        alignment=alignment,
-        description=_description(plot, alignment) | run.facts,
-        notes=(*plot.warnings, *domains.notes, *run.notes),
-        warnings=run.warnings,
-    )
 
 
-@dataclass(frozen=True)
-class _Beside:
-    """What the files beside the plot file tell of its run."""
-
-    facts: dict[str, Any]
-    notes: tuple[str, ...]
-    warnings: tuple[str, ...]
-
-
-def _beside(plot: Plot, stated: FebioReference) -> _Beside:
-    """Read the log and the data records, as far as the case states them."""
-    log = None if stated.log is None else account_of_log(stated.log, plot)
-    records = [account_of_record(record, plot) for record in stated.data_records]
-    facts: dict[str, Any] = {} if log is None else {"cost": log.cost}
-    if records:
-        facts["data_records"] = [record.facts for record in records]
-    return _Beside(
-        facts,
-        notes=tuple(note for record in records for note in record.notes),
-        warnings=(
-            *(() if log is None else log.warnings),
-            *(warning for record in records for warning in record.warnings),
-        ),
-    )
-
-
-def _check_direction(plot: Plot, mapped: list[MappedState], alignment: Alignment, case: Case) -> None:
+def _check_direction(plot: Plot, inflow: NDArray[np.float64], alignment: Alignment, case: Case) -> None:
     """Refuse a reference whose blood flows against the prescribed inflow."""
     if case.inlet.kind == "pressure":
         return
     prescribed = float(np.mean(inlet_signal(case)(alignment.cycle_times)))
-    inflow = float(np.mean(_each(mapped, "inflow")))
-    if prescribed * inflow < 0:
+    mean = float(np.mean(inflow))
+    if prescribed * mean < 0:
         raise UnusableReferenceError(
-            f"{plot.path}: blood flows against the inflow of the case ({inflow:.3g} m³/s on average at "
+            f"{plot.path}: blood flows against the inflow of the case ({mean:.3g} m³/s on average at "
             "reference.origin): reference.axis and origin must follow the flow"
         )
 
@@ -167,40 +188,24 @@ def _check_radius(plot: Plot, mesh: LumenMesh, case: Case) -> None:
         )
 
 
-def _checks(
-    plot: Plot,
-    place: Frame,
-    mesh: LumenMesh,
-    mapped: list[MappedState],
-    alignment: Alignment,
-    case: Case,
-    rays: Rays,
-) -> xr.Dataset:
-    """Flow rates by surface integral: through the inlet at all states, through planes at a few."""
+def _plane_checks(model: PlotModel, alignment: Alignment, case: Case, rays: Rays) -> xr.Dataset:
+    """Flow rates through planes at a few states, by surface integral."""
     sections = np.array(case.compare.cells.i) - 1
-    few = np.unique(np.linspace(0, len(mapped) - 1, 5).astype(int))
-    grid = lumen_grid(mesh.lumen)
+    few = np.unique(np.linspace(0, len(alignment.states) - 1, 5).astype(int))
+    grid = lumen_grid(model.mesh.lumen)
     planes = np.empty((few.size, sections.size))
-    for row, state in enumerate(alignment.states[few]):
-        points = mesh.coordinates + nodal_vectors(plot, DISPLACEMENT, int(state), place)
-        velocity = nodal_vectors(plot, VELOCITY, int(state), place)
+    for row, state in enumerate(alignment.states[few].tolist()):
+        displacement, velocity, _ = model.read(state)
+        points = model.mesh.coordinates + displacement
         planes[row] = [plane_flow_rate(grid, points, velocity, float(x)) for x in rays.x[sections]]
     return xr.Dataset(
-        {
-            "inlet_flow_rate": ("time", _each(mapped, "inflow")),
-            "inlet_area": ("time", _each(mapped, "inlet_area")),
-            "plane_flow_rate": (("check_time", "check_x"), planes),
-        },
+        {"plane_flow_rate": (("check_time", "check_x"), planes)},
         coords={
             "time": alignment.cycle_times,
             "check_time": alignment.cycle_times[few],
             "check_x": rays.x[sections],
         },
     )
-
-
-def _each(mapped: list[MappedState], name: str) -> NDArray[np.float64]:
-    return np.array([getattr(state, name) for state in mapped])
 
 
 def _description(plot: Plot, alignment: Alignment) -> dict[str, Any]:

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-_UNIT = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+from cases.reference import Vector, components
 
 
 @dataclass(frozen=True)
 class Frame:
-    """Where the artery lies.
+    """Where the artery lies, and what the reference's numbers mean.
 
     Attributes
     ----------
@@ -18,27 +18,51 @@ class Frame:
         Centre of the inlet, m.
     rotation : ndarray (3, 3)
         Rows: unit vectors along the artery, towards φ = 0 and towards φ = π/2.
+    length, velocity : float
+        The reference's units of length and velocity, m and m/s.
     """
 
     origin: NDArray[np.float64]
     rotation: NDArray[np.float64]
+    length: float = 1.0
+    velocity: float = 1.0
 
     def points(self, coordinates: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points (..., 3) in the artery's frame, m."""
-        return np.asarray((coordinates - self.origin) @ self.rotation.T)
+        """Points (..., 3) of the reference in the artery's frame, m."""
+        return np.asarray((self.length * coordinates - self.origin) @ self.rotation.T)
 
-    def vectors(self, components: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Vectors (..., 3) in the artery's frame."""
-        return np.asarray(components @ self.rotation.T)
+    def displacements(self, parts: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Displacements (..., 3) of the reference in the artery's frame, m."""
+        return self.length * self.directions(parts)
+
+    def velocities(self, parts: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Velocities (..., 3) of the reference in the artery's frame, m/s."""
+        return self.velocity * self.directions(parts)
+
+    def directions(self, parts: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Components (..., 3) in the artery's frame."""
+        return np.asarray(parts @ self.rotation.T)
 
 
-def direction(name: str) -> NDArray[np.float64]:
-    """Return the unit vector of a name such as "x" or "-y"."""
-    sign = -1.0 if name.startswith("-") else 1.0
-    return sign * np.array(_UNIT[name.removeprefix("-")])
+def frame(
+    axis: str | Vector,
+    phi_zero: str | Vector,
+    origin: Vector,
+    length: float = 1.0,
+    velocity: float = 1.0,
+) -> Frame:
+    """Frame from the artery's axis and where φ = 0 points; its part along the axis does not count.
 
-
-def frame(axis: str, phi_zero: str, origin: tuple[float, float, float]) -> Frame:
-    """Frame from names of coordinate directions: the artery's axis, and where φ = 0 points."""
-    along, first = direction(axis), direction(phi_zero)
-    return Frame(np.array(origin), np.array([along, first, np.cross(along, first)]))
+    Parameters
+    ----------
+    axis, phi_zero : str or tuple of float
+        By name ("x", "-y") or components.
+    origin : tuple of float
+        m.
+    length, velocity : float
+        Units of the reference, m and m/s.
+    """
+    along, towards = np.array(components(axis)), np.array(components(phi_zero))
+    across = towards - (towards @ along) * along
+    first = across / np.linalg.norm(across)
+    return Frame(np.array(origin), np.array([along, first, np.cross(along, first)]), length, velocity)

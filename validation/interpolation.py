@@ -7,13 +7,14 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from validation.elements import centre, outside_by, shape_functions
+from validation.elements import TO_POLYNOMIAL, centre, expand, outside_by
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 INSIDE = 1e-6  # natural coordinates may exceed their element by this: shared faces belong to both
 NEAR_WALL = 5e-3  # and by this where no element holds the point: on a curved boundary
+CONVERGED = 1e-7  # a Newton step this small leaves an error of about its square
 
 
 class Topology(NamedTuple):
@@ -29,6 +30,18 @@ class Topology(NamedTuple):
     neighbours: Integers
 
 
+class Shapes(NamedTuple):
+    """Where elements lie in one state.
+
+    ``maps`` (n_e, 8, 3): coefficients of the map from natural coordinates; ``low``, ``high`` (n_e, 3):
+    bounding boxes widened by a tenth, m.
+    """
+
+    maps: Array
+    low: Array
+    high: Array
+
+
 class Located(NamedTuple):
     """Where points lie: ``element`` (n,), −1 if nowhere, and ``natural`` (n, 3) coordinates in it."""
 
@@ -37,117 +50,95 @@ class Located(NamedTuple):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _solve(m: Array, b: Array) -> bool:
-    """Solve the 3 × 3 system m x = b by Cramer's rule, into b; False where m is singular."""
-    c0 = m[1, 1] * m[2, 2] - m[1, 2] * m[2, 1]
-    c1 = m[1, 2] * m[2, 0] - m[1, 0] * m[2, 2]
-    c2 = m[1, 0] * m[2, 1] - m[1, 1] * m[2, 0]
-    determinant = m[0, 0] * c0 + m[0, 1] * c1 + m[0, 2] * c2
-    if not abs(determinant) > 0.0:
-        return False
-    d0 = m[0, 2] * m[2, 1] - m[0, 1] * m[2, 2]
-    d1 = m[0, 0] * m[2, 2] - m[0, 2] * m[2, 0]
-    d2 = m[0, 1] * m[2, 0] - m[0, 0] * m[2, 1]
-    e0 = m[0, 1] * m[1, 2] - m[0, 2] * m[1, 1]
-    e1 = m[0, 2] * m[1, 0] - m[0, 0] * m[1, 2]
-    e2 = m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]
-    x0 = (c0 * b[0] + d0 * b[1] + e0 * b[2]) / determinant
-    x1 = (c1 * b[0] + d1 * b[1] + e1 * b[2]) / determinant
-    x2 = (c2 * b[0] + d2 * b[1] + e2 * b[2]) / determinant
-    b[0], b[1], b[2] = x0, x1, x2
-    return True
+def _value(c: Array, k: int, r: float, s: float, t: float) -> float:
+    """Component k of a polynomial with coefficients c (8, m)."""
+    plane = c[0, k] + c[2, k] * s + (c[3, k] + c[5, k] * s) * t
+    return float(plane + r * (c[1, k] + c[4, k] * s + (c[6, k] + c[7, k] * s) * t))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _linearise(
-    count: int, nodes: Integers, coordinates: Array, point: Array, scratch: Array, change: Array
-) -> None:
-    """Distance from the mapped point to ``point``, into ``change``; the mapping's Jacobian, into scratch."""
-    shape, slope, jacobian = scratch[:, 0], scratch[:, 1:4], scratch[0:3, 4:7]
-    for k in range(3):
-        change[k] = point[k]
-        for m in range(3):
-            jacobian[k, m] = 0.0
-    for a in range(count):
-        node = nodes[a]
-        for k in range(3):
-            change[k] -= shape[a] * coordinates[node, k]
-            for m in range(3):
-                jacobian[k, m] += coordinates[node, k] * slope[a, m]
+def _slopes(c: Array, k: int, r: float, s: float, t: float) -> tuple[float, float, float]:
+    """Return the derivatives of component k by r, s and t."""
+    return (
+        float(c[1, k] + c[4, k] * s + (c[6, k] + c[7, k] * s) * t),
+        float(c[2, k] + c[4, k] * r + (c[5, k] + c[7, k] * r) * t),
+        float(c[3, k] + c[6, k] * r + (c[5, k] + c[7, k] * r) * s),
+    )
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _invert(
-    kind: int, nodes: Integers, coordinates: Array, point: Array, natural: Array, scratch: Array
-) -> bool:
-    """Newton's method for the natural coordinates of ``point``, starting from ``natural``."""
-    change = scratch[3:6, 4]
+def _invert(c: Array, point: Array, r: float, s: float, t: float) -> tuple[bool, float, float, float]:
+    """Newton's method for the natural coordinates of ``point``, starting from (r, s, t).
+
+    ``c`` (8, 3): coefficients of the element's map. Each step solves 3 × 3 equations by Cramer's rule.
+    """
     for _ in range(15):
-        count = shape_functions(kind, natural, scratch[:, 0], scratch[:, 1:4])
-        _linearise(count, nodes, coordinates, point, scratch, change)
-        if not _solve(scratch[0:3, 4:7], change):
-            return False
-        step = 0.0
-        for k in range(3):
-            natural[k] += change[k]
-            step = max(step, abs(change[k]))
-        if step < 1e-9:
-            return True
+        f0, f1, f2 = (
+            point[0] - _value(c, 0, r, s, t),
+            point[1] - _value(c, 1, r, s, t),
+            point[2] - _value(c, 2, r, s, t),
+        )
+        a0, b0, d0 = _slopes(c, 0, r, s, t)
+        a1, b1, d1 = _slopes(c, 1, r, s, t)
+        a2, b2, d2 = _slopes(c, 2, r, s, t)
+        m0, m1, m2 = b1 * d2 - d1 * b2, d0 * b2 - b0 * d2, b0 * d1 - d0 * b1
+        determinant = a0 * m0 + a1 * m1 + a2 * m2
+        if not abs(determinant) > 0.0:
+            return False, r, s, t
+        scale = 1.0 / determinant
+        g0, g1, g2 = f1 * d2 - d1 * f2, d0 * f2 - f0 * d2, f0 * d1 - d0 * f1
+        h0, h1, h2 = b1 * f2 - f1 * b2, f0 * b2 - b0 * f2, b0 * f1 - f0 * b1
+        dr = scale * (f0 * m0 + f1 * m1 + f2 * m2)
+        ds = scale * (a0 * g0 + a1 * g1 + a2 * g2)
+        dt = scale * (a0 * h0 + a1 * h1 + a2 * h2)
+        r, s, t = r + dr, s + ds, t + dt
+        step = max(max(abs(dr), abs(ds)), abs(dt))
+        if step < CONVERGED:
+            return True, r, s, t
         if not step < 50.0:
-            return False
-    return False
+            return False, r, s, t
+    return False, r, s, t
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _try(
-    element: int, mesh: Topology, coordinates: Array, point: Array, natural: Array, scratch: Array
+    element: int, kinds: Integers, maps: Array, point: Array, r: float, s: float, t: float, natural: Array
 ) -> float:
-    """How far ``point`` lies outside ``element`` in natural coordinates; infinite where unknown."""
-    kind = mesh.kinds[element]
-    if not _invert(kind, mesh.nodes[element], coordinates, point, natural, scratch):
-        return np.inf
-    return outside_by(kind, natural)
+    """How far ``point`` lies outside ``element``, infinite where unknown; sets its natural coordinates."""
+    found, r, s, t = _invert(maps[element], point, r, s, t)
+    natural[0], natural[1], natural[2] = r, s, t
+    return outside_by(kinds[element], r, s, t) if found else np.inf
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _in_box(nodes: Integers, coordinates: Array, point: Array) -> bool:
-    """Whether ``point`` lies in the bounding box of an element, widened by a tenth."""
+def _in_box(element: int, shapes: Shapes, point: Array) -> bool:
     for k in range(3):
-        low, high = np.inf, -np.inf
-        for node in nodes:
-            if node >= 0:
-                low = min(low, coordinates[node, k])
-                high = max(high, coordinates[node, k])
-        margin = 0.1 * (high - low)
-        if point[k] < low - margin or point[k] > high + margin:
+        if point[k] < shapes.low[element, k] or point[k] > shapes.high[element, k]:
             return False
     return True
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _search_neighbours(
-    guess: int, mesh: Topology, coordinates: Array, point: Array, natural: Array, scratch: Array
-) -> int:
+def _search_neighbours(guess: int, mesh: Topology, shapes: Shapes, point: Array, natural: Array) -> int:
     """Element that holds ``point`` among those that share a node with the guess; −1 if none."""
     for n in range(mesh.starts[guess], mesh.starts[guess + 1]):
         element = mesh.neighbours[n]
-        centre(mesh.kinds[element], natural)
-        if _try(element, mesh, coordinates, point, natural, scratch) <= INSIDE:
-            return int(element)
+        if _in_box(element, shapes, point):
+            r, s, t = centre(mesh.kinds[element])
+            if _try(element, mesh.kinds, shapes.maps, point, r, s, t, natural) <= INSIDE:
+                return int(element)
     return -1
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _search_everywhere(
-    mesh: Topology, coordinates: Array, point: Array, natural: Array, scratch: Array
-) -> int:
+def _search_everywhere(mesh: Topology, shapes: Shapes, point: Array, natural: Array) -> int:
     """Element that holds ``point``, or the nearest one if it lies just outside all; −1 if none."""
     nearest, best = -1, NEAR_WALL
     kept = np.zeros(3)
     for element in range(mesh.kinds.size):
-        if _in_box(mesh.nodes[element], coordinates, point):
-            centre(mesh.kinds[element], natural)
-            distance = _try(element, mesh, coordinates, point, natural, scratch)
+        if _in_box(element, shapes, point):
+            r, s, t = centre(mesh.kinds[element])
+            distance = _try(element, mesh.kinds, shapes.maps, point, r, s, t, natural)
             if distance < best:
                 nearest, best = element, distance
                 kept[:] = natural
@@ -158,28 +149,27 @@ def _search_everywhere(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _search(
-    guess: int, mesh: Topology, coordinates: Array, point: Array, natural: Array, scratch: Array
-) -> int:
+def _search(guess: int, mesh: Topology, shapes: Shapes, point: Array, natural: Array) -> int:
     """Element that holds ``point``: the guess, else a neighbour of it, else any; −1 if none does."""
     if guess >= 0:
-        if _try(guess, mesh, coordinates, point, natural, scratch) <= INSIDE:
+        r, s, t = natural[0], natural[1], natural[2]
+        if _try(guess, mesh.kinds, shapes.maps, point, r, s, t, natural) <= INSIDE:
             return guess
-        element = _search_neighbours(guess, mesh, coordinates, point, natural, scratch)
+        element = _search_neighbours(guess, mesh, shapes, point, natural)
         if element >= 0:
             return element
-    return _search_everywhere(mesh, coordinates, point, natural, scratch)
+    return _search_everywhere(mesh, shapes, point, natural)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def locate(mesh: Topology, coordinates: Array, points: Array, located: Located) -> int:
+def locate(mesh: Topology, shapes: Shapes, points: Array, located: Located) -> int:
     """Find each point's element, starting from where ``located`` says it was.
 
     Parameters
     ----------
     mesh : Topology
-    coordinates : ndarray (n_nodes, 3)
-        Deformed, m.
+    shapes : Shapes
+        Of :func:`deformed`.
     points : ndarray (n, 3)
         m; neighbours in the list should be neighbours in space.
     located : Located
@@ -190,7 +180,6 @@ def locate(mesh: Topology, coordinates: Array, points: Array, located: Located) 
     int
         Index of the first point that lies in no element, or −1.
     """
-    scratch = np.zeros((8, 8))
     natural = np.empty(3)
     missing = -1
     previous = -1
@@ -201,8 +190,8 @@ def locate(mesh: Topology, coordinates: Array, points: Array, located: Located) 
         else:
             guess = previous
             if guess >= 0:
-                centre(mesh.kinds[guess], natural)
-        element = _search(guess, mesh, coordinates, points[n], natural, scratch)
+                natural[0], natural[1], natural[2] = centre(mesh.kinds[guess])
+        element = _search(guess, mesh, shapes, points[n], natural)
         located.element[n] = element
         located.natural[n] = natural
         if element < 0 and missing < 0:
@@ -213,17 +202,34 @@ def locate(mesh: Topology, coordinates: Array, points: Array, located: Located) 
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def interpolate(mesh: Topology, nodal: Array, located: Located, values: Array) -> None:
-    """Finite-element interpolation of nodal values (n_nodes, m) at located points, into (n, m)."""
-    shape, slope = np.zeros(8), np.zeros((8, 3))
+def _evaluate(coefficients: Array, located: Located, values: Array) -> None:
     for n in range(located.element.size):
-        element = located.element[n]
-        count = shape_functions(mesh.kinds[element], located.natural[n], shape, slope)
-        for k in range(nodal.shape[1]):
-            total = 0.0
-            for a in range(count):
-                total += shape[a] * nodal[mesh.nodes[element, a], k]
-            values[n, k] = total
+        c = coefficients[located.element[n]]
+        r, s, t = located.natural[n, 0], located.natural[n, 1], located.natural[n, 2]
+        for k in range(values.shape[1]):
+            values[n, k] = _value(c, k, r, s, t)
+
+
+def deformed(mesh: Topology, coordinates: Array) -> Shapes:
+    """Elements in the state with these nodal coordinates (n_nodes, 3), m."""
+    padding = mesh.nodes < 0
+    corners = coordinates[np.where(padding, mesh.nodes[:, :1], mesh.nodes)]  # repeats a node there
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    margin = 0.1 * (high - low)
+    return Shapes(_polynomials(mesh, coordinates), low - margin, high + margin)
+
+
+def interpolate(mesh: Topology, nodal: Array, located: Located) -> Array:
+    """Finite-element interpolation of nodal values (n_nodes, m) at located points, (n, m)."""
+    values = np.empty((located.element.size, nodal.shape[1]))
+    _evaluate(_polynomials(mesh, nodal), located, values)
+    return values
+
+
+def _polynomials(mesh: Topology, nodal: Array) -> Array:
+    coefficients = np.empty((mesh.kinds.size, 8, nodal.shape[1]))
+    expand(mesh.kinds, mesh.nodes, np.ascontiguousarray(nodal), TO_POLYNOMIAL, coefficients)
+    return coefficients
 
 
 def topology(kinds: NDArray[np.int64], nodes: NDArray[np.int64], n_nodes: int) -> Topology:

@@ -22,9 +22,9 @@ class MappedState(NamedTuple):
 
     ``radius``, ``chord`` (n_x, n_phi): wall radius and the ray's end in the mesh; ``sector_area``
     (n_x, n_phi): 2/Δφ times the area of each sector of the mesh's lumen, R² for a circle, m²;
-    ``velocity`` (n_x, n_phi, n_y, 3): along x, r, φ; ``pressure`` (n_x, n_phi): ray mean; ``inflow``,
-    ``outflow``, ``wall_flow``: flow rates through the boundary by surface integral, m³/s;
-    ``inlet_area``: m².
+    ``velocity`` (n_x, n_phi, n_y, 3): along x, r, φ; ``pressure`` (n_x, n_phi): ray mean;
+    ``pressure_range`` (n_x,): largest minus least over all points of a section; ``inflow``, ``outflow``,
+    ``wall_flow``: flow rates through the boundary by surface integral, m³/s; ``inlet_area``: m².
     """
 
     radius: Floats
@@ -32,6 +32,7 @@ class MappedState(NamedTuple):
     sector_area: Floats
     velocity: Floats
     pressure: Floats
+    pressure_range: Floats
     inflow: float
     outflow: float
     wall_flow: float
@@ -78,7 +79,8 @@ class Mapper:
         chord = self._radius(points, rays.phi, self._chord_faces, chord=True)
         rim = self._radius(points, rays.rim, self._rim_faces, chord=True)
         targets = rays.points(chord)
-        missing = interpolation.locate(mesh.lumen, points, targets.reshape(-1, 3), self._located)
+        shapes = interpolation.deformed(mesh.lumen, points)
+        missing = interpolation.locate(mesh.lumen, shapes, targets.reshape(-1, 3), self._located)
         if missing >= 0:
             i, j, k = np.unravel_index(missing, rays.shape)
             raise UnusableReferenceError(
@@ -86,14 +88,14 @@ class Mapper:
                 f"r/R = {rays.y[k]:.3g}"
             )
         nodal = np.column_stack([velocity, pressure])
-        values = np.empty((*rays.shape, 4))
-        interpolation.interpolate(mesh.lumen, nodal, self._located, values.reshape(-1, 4))
+        values = interpolation.interpolate(mesh.lumen, nodal, self._located).reshape(*rays.shape, 4)
         return MappedState(
             radius=radius,
             chord=chord,
             sector_area=(rim**2).reshape(*radius.shape, -1).mean(axis=-1),
             velocity=rays.cylindrical(values[..., :3]),
             pressure=rays.mean(values[..., 3]),
+            pressure_range=np.ptp(values[..., 3], axis=(1, 2)),
             inflow=flow_along_axis(points, mesh.inlet, velocity),
             outflow=flow_along_axis(points, mesh.outlet, velocity),
             wall_flow=float(flux(points, mesh.interface, velocity)),
@@ -102,8 +104,7 @@ class Mapper:
 
     def _radius(self, points: Floats, phi: Floats, guess: NDArray[np.int64], chord: bool) -> Floats:
         rays = self.rays
-        radius = np.empty(guess.shape)
-        interface_radius(points, self.mesh.interface, rays.x, phi, chord, guess, radius)
+        radius = interface_radius(points, self.mesh.interface, rays.x, phi, chord, guess)
         missed = np.argwhere(radius <= 0)
         if len(missed):
             i, j = missed[0]

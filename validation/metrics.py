@@ -1,7 +1,7 @@
 """Every figure of a comparison as one row of data."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -45,18 +45,40 @@ class Row:
 
 @dataclass(frozen=True)
 class Models:
-    """Both models of one variant, fields under their own names."""
+    """Both models of one variant, fields under their own names.
+
+    Where the reference is ``sparse``, NaN is what it does not state. ``stated`` are its own numbers of the
+    cycle, by quantity.
+    """
 
     case: str
     variant: str
     rom: xr.Dataset
     reference: xr.Dataset
     period: float
+    sparse: bool = False
+    stated: Mapping[str, float] = field(default_factory=dict)
 
     def pair(self, quantity: str) -> tuple[Floats, Floats]:
         """Values of a quantity in both models, float64."""
         rom, reference = self.rom[quantity], self.reference[quantity]
         return rom.to_numpy().astype(float), reference.to_numpy().astype(float)
+
+    def statistic(self, name: str, rom: Floats, reference: Floats) -> float | None:
+        """Value of a statistic over all entries that the reference states; None where it has no meaning."""
+        if self.sparse:
+            there = ~np.isnan(reference)
+            rom, reference = rom[there], reference[there]
+            if not reference.size or name in EXTREMES:  # a few instants have no systole
+                return None
+        return pooled(name, rom, reference)
+
+    def of_cycle(self, quantity: str) -> tuple[float, float | None]:
+        """One number of the cycle in both models."""
+        measure = CYCLE_QUANTITIES[quantity]
+        if self.sparse:
+            return measure(self.rom), self.stated.get(quantity)
+        return measure(self.rom), measure(self.reference)
 
     def row(self, quantity: str, statistic: str, **values: Any) -> Row:
         """Row of this variant; its unit is that of values, or of an absolute error."""
@@ -65,22 +87,29 @@ class Models:
         return Row(self.case, self.variant, quantity, statistic, unit=unit, **values)
 
 
-def models_of(comparison: xr.Dataset, variant: str) -> Models:
-    """Split one variant of a comparison into its two models."""
-    chosen = comparison.sel(variant=variant)
+def models_of(case: str, variant: str, both: xr.Dataset, period: float, **about: Any) -> Models:
+    """Split one variant, with fields ``rom_…`` and ``reference_…``, into its two models.
+
+    ``about``: ``sparse`` and ``stated`` of :class:`Models`.
+    """
     parts = {}
     for model in ("rom", "reference"):
         prefix = f"{model}_"
-        names = {str(n): str(n).removeprefix(prefix) for n in chosen.data_vars if str(n).startswith(prefix)}
-        parts[model] = chosen[list(names)].rename(names)
-    return Models(
-        comparison.attrs["case"], variant, parts["rom"], parts["reference"], comparison.attrs["period_s"]
-    )
+        names = {str(n): str(n).removeprefix(prefix) for n in both.data_vars if str(n).startswith(prefix)}
+        parts[model] = both[list(names)].rename(names)
+    return Models(case, variant, parts["rom"], parts["reference"], period, **about)
 
 
-def _single(rom: float, reference: float) -> float | None:
+def _single(rom: float, reference: float | None) -> float | None:
+    if reference is None:
+        return None
     error = relative_error(np.atleast_1d(rom), np.atleast_1d(reference))
     return None if error is None else float(error[0])
+
+
+def _number(value: float) -> float | None:
+    """Return a value, or None for what a reference does not state."""
+    return None if np.isnan(value) else float(value)
 
 
 def value_rows(models: Models, cells: tuple[Floats, Floats], times: Floats) -> Iterator[Row]:
@@ -100,7 +129,7 @@ def value_rows(models: Models, cells: tuple[Floats, Floats], times: Floats) -> I
                         j=None if j is None else int(j),
                         t_s=float(t),
                         rom=float(rom[at]),
-                        reference=float(reference[at]),
+                        reference=_number(reference[at]),
                         error=_single(rom[at], reference[at]),
                     )
 
@@ -115,7 +144,7 @@ def cycle_error_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[R
                 at = np.s_[:, i - 1] if j is None else np.s_[:, i - 1, j - 1]
                 where = {"i": int(i), "j": None if j is None else int(j)}
                 for statistic in ("rms_error", "max_error", *EXTREMES):
-                    error = pooled(statistic, rom[at], reference[at])
+                    error = models.statistic(statistic, rom[at], reference[at])
                     yield models.row(quantity, statistic, error=error, **where)
 
 
@@ -135,16 +164,16 @@ def pooled_rows(models: Models) -> Iterator[Row]:
     for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
         rom, reference = models.pair(quantity)
         for statistic in (*POOLED, *EXTREMES, *DIFFERENCES):
-            row = models.row(quantity, statistic, error=pooled(statistic, rom, reference))
+            row = models.row(quantity, statistic, error=models.statistic(statistic, rom, reference))
             yield _with_place(row, models, rom, reference) if statistic.startswith("max_") else row
 
 
 def _with_place(row: Row, models: Models, rom: Floats, reference: Floats) -> Row:
     """Add cell, instant and values of the largest error."""
-    error = rom - reference if row.statistic == "max_difference" else relative_error(rom, reference)
-    if row.error is None or error is None:
+    if row.error is None:
         return row
-    at = np.unravel_index(int(np.argmax(np.abs(error))), error.shape)
+    error = rom - reference if row.statistic == "max_difference" else rom / reference - 1.0
+    at = np.unravel_index(int(np.nanargmax(np.abs(error))), error.shape)
     return replace(
         row,
         unit=FIELDS[row.quantity].unit,
@@ -158,26 +187,33 @@ def _with_place(row: Row, models: Models, rom: Floats, reference: Floats) -> Row
 
 def cycle_rows(models: Models) -> Iterator[Row]:
     """One number per cycle."""
-    for quantity, measure in CYCLE_QUANTITIES.items():
-        rom, reference = measure(models.rom), measure(models.reference)
+    for quantity in CYCLE_QUANTITIES:
+        rom, reference = models.of_cycle(quantity)
         yield models.row(quantity, "cycle", rom=rom, reference=reference, error=_single(rom, reference))
-    yield models.row("phase_lag", "cycle", rom=phase_lag(models.rom, models.reference, models.period))
+    if not models.sparse:
+        yield models.row("phase_lag", "cycle", rom=phase_lag(models.rom, models.reference, models.period))
 
 
 def check_rows(models: Models) -> Iterator[Row]:
     """Tell whether the reduced model's assumptions, and both simulations, hold."""
-    for quantity in ("mass_defect", "axis_velocity_spread"):
+    for quantity in ("mass_defect", "axis_velocity_spread", "section_pressure_range"):
         rom, reference = models.pair(quantity)
-        yield models.row(
-            quantity, "largest", rom=float(np.max(np.abs(rom))), reference=float(np.max(np.abs(reference)))
-        )
+        yield models.row(quantity, "largest", rom=float(np.max(np.abs(rom))), reference=_largest(reference))
     for quantity in ("backflow_fraction", *DOMINANCE):
         values = models.reference[quantity].to_numpy()
-        place = np.unravel_index(int(np.argmax(values)), values.shape)
-        cell = {"i": int(place[0]) + 1, "j": int(place[1]) + 1} if values.ndim == 2 else {}
+        found = _largest(values)
+        cell = {}
+        if found is not None and values.ndim == 2:
+            place = np.unravel_index(int(np.nanargmax(values)), values.shape)
+            cell = {"i": int(place[0]) + 1, "j": int(place[1]) + 1}
         own = models.rom.get(quantity)
         estimate = None if own is None else float(own.max())
-        yield models.row(quantity, "largest", reference=float(values.max()), rom=estimate, **cell)
+        yield models.row(quantity, "largest", reference=found, rom=estimate, **cell)
+
+
+def _largest(values: Floats) -> float | None:
+    """Largest magnitude; None where a reference states nothing."""
+    return None if np.all(np.isnan(values)) else float(np.nanmax(np.abs(values)))
 
 
 def dominance_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row]:
@@ -187,13 +223,15 @@ def dominance_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row
         own = models.rom[quantity].to_numpy() if quantity in models.rom else None
         for i in cells[0]:
             for j in cells[1]:
-                ratio = float(values[i - 1, j - 1])
+                ratio = _number(values[i - 1, j - 1])
                 estimate = None if own is None else float(own[i - 1, j - 1])
                 yield models.row(quantity, "value", i=int(i), j=int(j), rom=estimate, reference=ratio)
 
 
 def plane_rows(models: Models, checks: xr.Dataset) -> Iterator[Row]:
     """3D section flow by rays (``reference``), and its deviation from planes cut by VTK (``error``)."""
+    if "plane_flow_rate" not in checks:
+        return
     by_rays = models.reference["section_flow_rate"]
     times, stations = models.reference["time"].to_numpy(), models.reference["x"].to_numpy()
     for t, at_time in zip(checks["check_time"].to_numpy(), checks["plane_flow_rate"].to_numpy(), strict=True):
@@ -236,16 +274,25 @@ def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) ->
     yield models.row("iterations", "cost", reference=float(cost["iterations"]))
 
 
-def change_rows(rows: list[Row], baseline: str) -> Iterator[Row]:
-    """Values and cycle quantities minus, and over, the baseline's: what calcification changes."""
+def change_rows(rows: list[Row], baselines: Mapping[str, str]) -> Iterator[Row]:
+    """Values and cycle quantities minus, and over, the baseline's: what calcification changes.
+
+    Parameters
+    ----------
+    rows : list of Row
+        Of all variants.
+    baselines : mapping of str to str
+        By variant, the one to compare it with.
+    """
     kept = [
         row
         for row in rows
         if row.statistic in ("value", "cycle") and row.rom is not None and row.quantity not in DOMINANCE
     ]
-    base = {(r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in kept if r.variant == baseline}
+    known = {(r.variant, r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in kept}
     for row in kept:
-        other = base.get((row.quantity, row.statistic, row.i, row.j, row.t_s))
+        baseline = baselines.get(row.variant, row.variant)
+        other = known.get((baseline, row.quantity, row.statistic, row.i, row.j, row.t_s))
         if row.variant != baseline and other is not None:
             yield from _change(row, other)
 

@@ -1,5 +1,6 @@
 """A result directory, written whole or not at all."""
 
+import fnmatch
 import json
 import math
 import os
@@ -15,6 +16,7 @@ import pandas as pd
 from validation.errors import ValidationError
 
 MARK = "provenance.json"  # every finished result has one
+PARAVIEW_FILES = ("rom_*.vtkhdf", "reference_*.vtkhdf")
 RESULT_FILES = {
     MARK,
     "ablation.csv",
@@ -52,11 +54,17 @@ def check_target(target: Path) -> None:
         raise ValidationError(f"{target}: is the current directory; choose another --output")
 
 
+def is_result_file(name: str) -> bool:
+    """Whether a file of this name belongs to a result."""
+    return name in RESULT_FILES or any(fnmatch.fnmatchcase(name, pattern) for pattern in PARAVIEW_FILES)
+
+
 def _check_content(target: Path, names: set[str]) -> None:
-    if not names or (MARK in names and names <= RESULT_FILES):
+    strange = {name for name in names if not is_result_file(name)}
+    if not names or (MARK in names and not strange):
         return
     if MARK in names:
-        others = ", ".join(sorted(names - RESULT_FILES))
+        others = ", ".join(sorted(strange))
         raise ValidationError(f"{target}: holds other files than a result ({others}); move them away")
     raise ValidationError(f"{target}: exists and is no result of a comparison; choose another --output")
 
@@ -107,11 +115,19 @@ def _take_place(partial: Path, place: Path) -> None:
     shutil.rmtree(old)
 
 
+def write_text(path: Path, text: str) -> None:
+    """Write a file whole or not at all, UTF-8."""
+    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
 def write_json(path: Path, content: Any) -> None:
-    """Write strict JSON, UTF-8, indented."""
-    path.write_text(
-        json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8"
-    )
+    """Write strict JSON, indented."""
+    write_text(path, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
 
 
 def _plain(value: Any) -> Any:

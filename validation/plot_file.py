@@ -10,7 +10,6 @@ from cases.schema import FebioReference
 from febio_io.xplt import Domain, Plot
 from validation.elements import KIND_OF_VTK_TYPE, NODES
 from validation.errors import UnusableReferenceError
-from validation.frame import Frame
 from validation.interpolation import Topology
 from validation.mesh import KIND_NAMES, Block
 from validation.pressure import recovery_operator
@@ -24,10 +23,11 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Domains:
-    """Domains that hold blood and wall, and notes on what was left out."""
+    """Domains that hold blood and wall, those of the wall that are calcified, notes on what was left out."""
 
     lumen: tuple[Domain, ...]
     wall: tuple[Domain, ...]
+    calcified: tuple[Domain, ...]
     notes: tuple[str, ...]
 
 
@@ -76,7 +76,8 @@ def choose_domains(plot: Plot, reference: FebioReference) -> Domains:
     left = [d.name or f"number {d.region}" for d in plot.mesh.domains if d.region not in used]
     if left:
         notes.append(f"{plot.path.name}: domains neither lumen nor wall are left out: {', '.join(left)}")
-    return Domains(tuple(lumen), tuple(wall), (*notes, *more))
+    calcified = tuple(d for d in wall if d.name in (reference.calcified or ()))
+    return Domains(tuple(lumen), tuple(wall), calcified, (*notes, *more))
 
 
 def _regions(plot: Plot, name: str) -> tuple[int, ...]:
@@ -120,11 +121,6 @@ def require(plot: Plot) -> None:
     if not present & set(FLUID_VARIABLES):
         wanted = " or ".join(repr(name) for name in FLUID_VARIABLES)
         raise UnusableReferenceError(f"{plot.path}: plot variable {wanted} is missing; it has: {have}")
-
-
-def nodal_vectors(plot: Plot, name: str, state: int, frame: Frame) -> Floats:
-    """Nodal vectors of one state in the artery's frame, (n_nodes, 3)."""
-    return frame.vectors(plot.field(name, state).astype(float))
 
 
 def pressure_reader(

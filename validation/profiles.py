@@ -56,6 +56,32 @@ def closest_profile(
     return ClosestProfile(velocity, exponent, error)
 
 
+def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
+    """Relative error of each profile from the closest one with given exponents.
+
+    Parameters
+    ----------
+    velocities : ndarray (n, n_y)
+        v_x at y, m/s.
+    y : ndarray (n_y,)
+        Normalised radius r/R from 0 to 1.
+    exponents : ndarray (n, m)
+        γ > 0; infinite for plug flow.
+
+    Returns
+    -------
+    ndarray (n, m)
+        ‖v − u s‖/‖v‖ with the best u; NaN for a profile that is zero everywhere.
+    """
+    shapes = 1.0 - y ** exponents[..., None]
+    best = np.einsum("nk,nmk->nm", velocities, shapes) / np.sum(shapes**2, axis=2)
+    rest = np.linalg.norm(velocities[:, None, :] - best[..., None] * shapes, axis=2)
+    size = np.broadcast_to(np.linalg.norm(velocities, axis=1)[:, None], rest.shape)
+    error = np.full(rest.shape, np.nan)
+    np.divide(rest, size, out=error, where=size > 0)
+    return error
+
+
 def _best_shape(weighted: Array, bases: Array) -> NDArray[np.int64]:
     """Index of the unit shape that each profile projects on best; the last, plug flow, wins ties."""
     score = np.abs(weighted @ bases.T)

@@ -65,7 +65,7 @@ class Rays:
 
     def mean(self, values: Array) -> Array:
         """Mean over each ray with weight y dy, (..., n_y) → (...): 2∫₀¹ f y dy by Simpson's rule."""
-        return np.asarray(2.0 * simpson(values * self.y, x=self.y, axis=-1))
+        return np.asarray(values @ (2.0 * self.y * simpson(np.eye(self.y.size), x=self.y, axis=-1)))
 
 
 def rays(x: Array, phi: Array, points: int = POINTS_PER_RAY) -> Rays:

@@ -69,6 +69,7 @@ def run_reduced_model(
     axis = u * axis_ratio(gamma)
     values["axial_velocity"] = axial.astype(np.float32)
     values |= _across(values, kept.get("azimuthal_flux"), rays)
+    values["section_pressure_range"] = np.ptp(values["pressure"], axis=-1)
     values["axis_velocity_spread"] = np.ptp(axis, axis=-1) / np.abs(axis).mean(axis=-1)
     first, last = dataset.sel(time=begin), dataset.sel(time=end)
     change = max(_relative_change(first[name], last[name]) for name in ("pressure", "section_flow_rate"))

@@ -1,11 +1,11 @@
-"""Where 3D data comes from: one protocol, one registry.
+"""Where 3D data comes from: the protocol that a kind of reference follows.
 
-A kind of reference is a function from a case, its rays and a progress callback to a
-:class:`Reference`; :data:`REFERENCES` holds one per ``reference.kind`` of the case file.
+A kind is one module with a :class:`ReferenceKind`; :mod:`validation.reference_kinds` registers it under
+the ``reference.kind`` of the case file, and :mod:`cases.reference` holds what a case states of it.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import xarray as xr
@@ -26,8 +26,8 @@ class Reference:
     fields : xarray.Dataset
         On time (s into the last cycle), x, phi and y: pressure, radius, mean_velocity,
         profile_exponent, profile_error, sector_flow_rate, section_flow_rate, section_pressure,
-        axial_velocity, radial_velocity, azimuthal_velocity, mass_defect, backflow_fraction,
-        axial_dominance_radial, axial_dominance_azimuthal, axis_velocity_spread. SI.
+        section_pressure_range, axial_velocity, radial_velocity, azimuthal_velocity, mass_defect,
+        backflow_fraction, axial_dominance_radial, axial_dominance_azimuthal, axis_velocity_spread. SI.
     checks : xarray.Dataset
         Flow rates found independently: inlet_flow_rate, inlet_area on time; plane_flow_rate on
         (check_time, check_x). SI.
@@ -38,7 +38,12 @@ class Reference:
     notes : tuple of str
         What a reader must know.
     warnings : tuple of str
-        What casts doubt on the reference.
+        What casts doubt on a comparison with it.
+    sparse : bool
+        Whether NaN stands for what the reference does not state, rather than for something wrong.
+    cycle : mapping of str to float
+        Numbers of the whole cycle that the reference states itself, SI, by name of the quantity; they
+        count instead of those found from ``fields``.
     """
 
     fields: xr.Dataset
@@ -47,6 +52,23 @@ class Reference:
     description: dict[str, Any]
     notes: tuple[str, ...]
     warnings: tuple[str, ...] = ()
+    sparse: bool = False
+    cycle: Mapping[str, float] = field(default_factory=dict)
 
 
-ReferenceReader = Callable[[Case, Rays, Progress | None], Reference]
+@dataclass(frozen=True)
+class ReferenceKind:
+    """How a kind of reference is read.
+
+    Attributes
+    ----------
+    align : callable (case) -> Alignment
+        The instants that the reference has, at little cost: the reduced model runs through them, and those
+        that other variants lack are left out.
+    read : callable (case, rays, progress, alignment) -> Reference
+        Data at the instants of ``alignment`` on ``rays``; calls ``progress(done, total)``, if given. Both
+        raise a `ValidationError` or an error of the file's reader with one line that names the file.
+    """
+
+    align: Callable[[Case], Alignment]
+    read: Callable[[Case, Rays, Progress | None, Alignment | None], Reference]

@@ -3,7 +3,7 @@
 import threading
 import time
 from collections.abc import Iterator, Mapping
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -13,14 +13,15 @@ from rich.progress import Progress as Display
 from cases.schema import Case
 from solver.errors import SolverError
 from solver.from_case import grid_of
+from validation.alignment import Alignment
+from validation.cache import Cache
+from validation.cached_runs import cached_reference, cached_rom
 from validation.comparison import VariantRun
 from validation.errors import ValidationError
-from validation.febio_reference import read_febio
 from validation.rays import rays
-from validation.reduced_model import run_reduced_model
-from validation.reference import Progress, ReferenceReader
+from validation.reference import Progress, ReferenceKind
+from validation.reference_kinds import REFERENCE_KINDS
 
-REFERENCES: dict[str, ReferenceReader] = {"febio": read_febio}
 WORKERS = 2  # variants at once: mapping and stepping release the interpreter's lock
 
 
@@ -30,10 +31,12 @@ class _StoppedError(Exception):
 
 @dataclass
 class Watch:
-    """Progress display and wall times of a comparison's steps."""
+    """Progress display, cache, wall times and remarks of a comparison's steps."""
 
     display: Display
+    cache: Cache | None = None
     stop: threading.Event = field(default_factory=threading.Event)
+    remarks: list[str] = field(default_factory=list)
     wall_times: dict[str, float] = field(default_factory=dict)
 
     @contextmanager
@@ -48,50 +51,75 @@ class Watch:
             self.display.update(task, completed=done, total=total)
 
         yield update
-        self.wall_times[name] = round(time.perf_counter() - begin, 3)
+        passed = self.wall_times.get(name, 0.0) + time.perf_counter() - begin
+        self.wall_times[name] = round(passed, 3)
         self.display.update(task, completed=1, total=1)
 
 
 @contextmanager
-def watching() -> Iterator[Watch]:
+def watching(cache: Cache | None = None) -> Iterator[Watch]:
     """Show progress on standard error if it is a terminal, nothing otherwise."""
     console = Console(stderr=True)
     with Display(console=console, transient=True, disable=not console.is_terminal) as display:
-        yield Watch(display)
+        yield Watch(display, cache)
 
 
-def run_variant(name: str, case: Case, watch: Watch) -> VariantRun:
+def align_variants(cases: Mapping[str, Case]) -> dict[str, Alignment]:
+    """Instants of every variant's reference.
+
+    Raises
+    ------
+    ValidationError
+        If a case states no reference; else as the kind of reference raises.
+    """
+    return {name: kind_of(name, case).align(case) for name, case in cases.items()}
+
+
+def kind_of(name: str, case: Case) -> ReferenceKind:
+    """Kind of a variant's reference."""
+    if case.reference is None:
+        raise ValidationError(f"variant {name!r} states no reference")
+    return REFERENCE_KINDS[case.reference.kind]
+
+
+def run_variant(name: str, case: Case, alignment: Alignment, watch: Watch) -> VariantRun:
     """Map the reference of one variant, then run the reduced model.
 
     Raises
     ------
     ValidationError
-        If the case states no reference; else as the reader and the solver raise.
+        As the kind of reference and the solver raise.
     """
-    if case.reference is None:
-        raise ValidationError(f"variant {name!r} states no reference")
     grid = grid_of(case)
     points = rays(grid.x, grid.phi)
     with watch.step(f"{name}: 3D onto cells") as progress:
-        reference = REFERENCES[case.reference.kind](case, points, progress)
+        reference = cached_reference(
+            watch.cache, kind_of(name, case), case, points, progress, alignment, watch.remarks.append
+        )
     with watch.step(f"{name}: reduced model") as progress:
         try:
-            rom = run_reduced_model(case, reference.alignment, points, progress)
+            rom = cached_rom(watch.cache, case, alignment, points, progress, watch.remarks.append)
         except SolverError as error:
             raise ValidationError(f"variant {name!r}: {error}") from error
     return VariantRun(case, rom, reference)
 
 
-def run_variants(cases: Mapping[str, Case], watch: Watch) -> dict[str, VariantRun]:
-    """Run all variants, two at a time; the first error stops the others and is raised."""
-    with ThreadPoolExecutor(max_workers=WORKERS) as pool:
-        futures = {name: pool.submit(run_variant, name, case, watch) for name, case in cases.items()}
-        try:
-            wait(futures.values(), return_when=FIRST_EXCEPTION)
-            failed = [future for future in futures.values() if future.done() and future.exception()]
-            for future in failed:
-                future.result()
-            return {name: future.result() for name, future in futures.items()}
-        finally:
-            watch.stop.set()
-            pool.shutdown(wait=False, cancel_futures=True)
+def run_variants(
+    cases: Mapping[str, Case], alignments: Mapping[str, Alignment], watch: Watch
+) -> Iterator[tuple[str, VariantRun]]:
+    """Run all variants, two at a time, and give each as it is done, which may be in any order.
+
+    The first error stops the others and is raised.
+    """
+    pool = ThreadPoolExecutor(max_workers=WORKERS)
+    try:
+        names = {
+            pool.submit(run_variant, name, case, alignments[name], watch): name
+            for name, case in cases.items()
+        }
+        for future in as_completed(names):
+            yield names.pop(future), future.result()
+            del future  # and with it what it gave
+    finally:
+        watch.stop.set()
+        pool.shutdown(wait=False, cancel_futures=True)

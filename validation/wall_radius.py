@@ -1,8 +1,11 @@
-"""Radius of the deformed lumen–wall interface on rays at (x_i, φ_j): numba kernels.
+"""Radius of the deformed lumen–wall interface on rays at (x_i, φ_j).
 
 Two radii are needed. The *wall radius* R follows the nodes: inside a face, x, φ and r are interpolated,
 so that a circle drawn with 24 sides keeps its radius. The *chord radius* is where the ray meets the flat
 face: the edge of the finite-element lumen, up to which its velocity is defined.
+
+Inside a face the interpolation is a polynomial in 1, r, s, rs: of natural coordinates in [−1, 1]² for a
+quadrilateral, in the unit triangle for a triangle.
 """
 
 import numpy as np
@@ -11,77 +14,19 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 
-ROUND_OFF = 1e-12
 INSIDE = 1e-7  # natural coordinates may exceed a face by this
+CONVERGED = 1e-8  # a Newton step this small leaves an error of about its square
+
+_QUADRILATERAL = 0.25 * np.array([[1, 1, 1, 1], [-1, 1, 1, -1], [-1, -1, 1, 1], [1, -1, 1, -1]])
+_TRIANGLE = np.array([[1, 0, 0, 0], [-1, 1, 0, 0], [-1, 0, 1, 0], [0, 0, 0, 0]], dtype=float)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _bilinear(r: float, s: float, n: Array) -> None:
-    n[0], n[1] = 0.25 * (1.0 - r) * (1.0 - s), 0.25 * (1.0 + r) * (1.0 - s)
-    n[2], n[3] = 0.25 * (1.0 + r) * (1.0 + s), 0.25 * (1.0 - r) * (1.0 + s)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _invert_face(a: Array, b: Array, n: Array) -> bool:
-    """Shape functions n (4,) of the point of a face where Σ n a = Σ n b = 0; False if outside."""
-    r, s = 0.0, 0.0
-    for _ in range(25):
-        _bilinear(r, s, n)
-        fa = n[0] * a[0] + n[1] * a[1] + n[2] * a[2] + n[3] * a[3]
-        fb = n[0] * b[0] + n[1] * b[1] + n[2] * b[2] + n[3] * b[3]
-        low, high = 0.25 * (1.0 - s), 0.25 * (1.0 + s)
-        ar = low * (a[1] - a[0]) + high * (a[2] - a[3])
-        br = low * (b[1] - b[0]) + high * (b[2] - b[3])
-        low, high = 0.25 * (1.0 - r), 0.25 * (1.0 + r)
-        as_ = low * (a[3] - a[0]) + high * (a[2] - a[1])
-        bs = low * (b[3] - b[0]) + high * (b[2] - b[1])
-        determinant = ar * bs - as_ * br
-        if not abs(determinant) > 0.0:  # the node that a triangle repeats
-            return bool(abs(fa) <= ROUND_OFF * np.max(np.abs(a)) and abs(fb) <= ROUND_OFF * np.max(np.abs(b)))
-        dr = (as_ * fb - bs * fa) / determinant
-        ds = (br * fa - ar * fb) / determinant
-        r, s = r + dr, s + ds
-        if max(abs(dr), abs(ds)) < 1e-12:
-            _bilinear(r, s, n)
-            return bool(max(abs(r), abs(s)) <= 1.0 + INSIDE)
-        if not max(abs(r), abs(s)) < 10.0:
-            return False
-    return False
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _wrap(angle: float) -> float:
-    """Return an angle moved into [−π, π)."""
-    return (angle + np.pi) % (2.0 * np.pi) - np.pi
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _on_ray(points: Array, face: Integers, x: float, phi: float, chord: bool) -> float:
-    """Radius at which the ray at (x, φ) meets one face, or −1."""
-    a, b, radius, n = np.empty(4), np.empty(4), np.empty(4), np.empty(4)
-    cosine, sine = np.cos(phi), np.sin(phi)
-    for k in range(4):
-        px, py, pz = points[face[k], 0], points[face[k], 1], points[face[k], 2]
-        a[k] = px - x
-        if chord:
-            radius[k] = py * cosine + pz * sine
-            b[k] = pz * cosine - py * sine
-        else:
-            radius[k] = np.hypot(py, pz)
-            b[k] = _wrap(np.arctan2(pz, py) - phi)
-    if np.min(a) > 0.0 or np.max(a) < 0.0 or np.min(b) > 0.0 or np.max(b) < 0.0:
-        return -1.0
-    if np.max(b) - np.min(b) > np.pi or not _invert_face(a, b, n):
-        return -1.0
-    return float(n[0] * radius[0] + n[1] * radius[1] + n[2] * radius[2] + n[3] * radius[3])
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
 def interface_radius(
-    points: Array, faces: Integers, x: Array, phi: Array, chord: bool, guess: Integers, radius: Array
-) -> None:
-    """Radius of the interface on every ray.
+    points: Array, faces: Integers, x: Array, phi: Array, chord: bool, guess: Integers
+) -> Array:
+    """Radius of the interface on every ray, (n_x, n_phi), m; −1 where the ray meets no face.
 
     Parameters
     ----------
@@ -97,16 +42,105 @@ def interface_radius(
         Chord radius instead of wall radius.
     guess : ndarray (n_x, n_phi)
         Face tried first; receives the face found.
-    radius : ndarray (n_x, n_phi)
-        Receives R, m; −1 where the ray meets no face.
     """
+    corners = points[faces]
+    if not chord:
+        angle = np.arctan2(corners[..., 2], corners[..., 1])
+        angle = angle[:, :1] + _wrapped(angle - angle[:, :1])
+        corners = np.stack([corners[..., 0], angle, np.hypot(corners[..., 1], corners[..., 2])], axis=-1)
+    triangle = faces[:, 2] == faces[:, 3]
+    matrices = np.where(triangle[:, None, None], _TRIANGLE, _QUADRILATERAL)
+    radius = np.empty(guess.shape)
+    _on_rays(matrices @ corners, triangle, x, phi, chord, guess, radius)
+    return radius
+
+
+def _wrapped(angle: Array) -> Array:
+    """Return angles moved into [−π, π)."""
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _inside(triangle: bool, r: float, s: float) -> bool:
+    if triangle:
+        return bool(min(r, s) >= -INSIDE and r + s <= 1.0 + INSIDE)
+    return bool(max(abs(r), abs(s)) <= 1.0 + INSIDE)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _root(
+    a: tuple[float, float, float, float], b: tuple[float, float, float, float], triangle: bool
+) -> tuple[bool, float, float]:
+    """Natural coordinates in a face where two polynomials vanish; False if there are none."""
+    share = 1.0 + INSIDE
+    if abs(a[0]) > share * (abs(a[1]) + abs(a[2]) + abs(a[3])):
+        return False, 0.0, 0.0
+    if abs(b[0]) > share * (abs(b[1]) + abs(b[2]) + abs(b[3])):
+        return False, 0.0, 0.0
+    r, s = 0.0, 0.0
+    for _ in range(25):
+        fa = a[0] + a[1] * r + (a[2] + a[3] * r) * s
+        fb = b[0] + b[1] * r + (b[2] + b[3] * r) * s
+        ar, as_ = a[1] + a[3] * s, a[2] + a[3] * r
+        br, bs = b[1] + b[3] * s, b[2] + b[3] * r
+        determinant = ar * bs - as_ * br
+        if not abs(determinant) > 0.0:
+            return False, r, s
+        dr = (as_ * fb - bs * fa) / determinant
+        ds = (br * fa - ar * fb) / determinant
+        r, s = r + dr, s + ds
+        if max(abs(dr), abs(ds)) < CONVERGED:
+            return _inside(triangle, r, s), r, s
+        if not max(abs(r), abs(s)) < 10.0:
+            return False, r, s
+    return False, r, s
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _on_face(
+    c: Array, triangle: bool, x: float, phi: float, cosine: float, sine: float, chord: bool
+) -> float:
+    """Radius at which the ray at (x, φ) meets one face, or −1; c (4, 3): x, y, z or x, φ, r."""
+    a = (c[0, 0] - x, c[1, 0], c[2, 0], c[3, 0])
+    if chord:
+        b = (
+            c[0, 2] * cosine - c[0, 1] * sine,
+            c[1, 2] * cosine - c[1, 1] * sine,
+            c[2, 2] * cosine - c[2, 1] * sine,
+            c[3, 2] * cosine - c[3, 1] * sine,
+        )
+    else:
+        b = ((c[0, 1] - phi + np.pi) % (2.0 * np.pi) - np.pi, c[1, 1], c[2, 1], c[3, 1])
+    found, r, s = _root(a, b, triangle)
+    if not found:
+        return -1.0
+    last = c[0, 2] + c[1, 2] * r + (c[2, 2] + c[3, 2] * r) * s
+    if not chord:
+        return float(last)
+    first = c[0, 1] + c[1, 1] * r + (c[2, 1] + c[3, 1] * r) * s
+    return float(first * cosine + last * sine)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _on_rays(
+    maps: Array, triangle: Flags, x: Array, phi: Array, chord: bool, guess: Integers, radius: Array
+) -> None:
+    """Fill ``radius``: each ray tries its guess, then its neighbour's face, then all faces."""
+    cosine, sine = np.cos(phi), np.sin(phi)
     for i in range(x.size):
+        previous = guess[max(i - 1, 0), 0]
         for j in range(phi.size):
-            found = _on_ray(points, faces[guess[i, j]], x[i], phi[j], chord)
-            face = 0
-            while found <= 0.0 and face < faces.shape[0]:
-                found = _on_ray(points, faces[face], x[i], phi[j], chord)
-                if found > 0.0:
-                    guess[i, j] = face
-                face += 1
+            face = guess[i, j]
+            found = _on_face(maps[face], triangle[face], x[i], phi[j], cosine[j], sine[j], chord)
+            if found <= 0.0:
+                face = previous
+                found = _on_face(maps[face], triangle[face], x[i], phi[j], cosine[j], sine[j], chord)
+            candidate = 0
+            while found <= 0.0 and candidate < maps.shape[0]:
+                face = candidate
+                found = _on_face(maps[face], triangle[face], x[i], phi[j], cosine[j], sine[j], chord)
+                candidate += 1
+            if found > 0.0:
+                guess[i, j] = face
+                previous = face
             radius[i, j] = found

@@ -178,8 +178,8 @@ def test_a_reference_may_have_a_log_and_data_records(folder):
     assert reference.log == folder.path / "data/flow.csv"
     (record,) = reference.data_records
     assert (record.items, record.columns) == ("elements", ("fp",))
-    assert reference.input_files == (reference.plot_file, reference.log, folder.path / "data/wall.csv")
-    assert folder.load().variants["none"].reference.input_files == (reference.plot_file,)
+    assert reference.files == (reference.plot_file, reference.log, folder.path / "data/wall.csv")
+    assert folder.load().variants["none"].reference.files == (reference.plot_file,)
 
 
 @pytest.mark.parametrize("phi", ["[225 deg, 135 deg]", "[0 deg, 360 deg]", "[0 rad, 1 rad]"])

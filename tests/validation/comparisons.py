@@ -50,10 +50,14 @@ def comparison(rom: dict[str, xr.Dataset], reference: dict[str, xr.Dataset]) -> 
 
 def two_models(variant: str = "none") -> Models:
     rom, reference = ({variant: model_fields(seed, calcified=False)} for seed in (1, 2))
-    return models_of(comparison(rom, reference), variant)
+    return models_in(comparison(rom, reference), variant)
 
 
 def equal_models() -> Models:
     """A reduced model that is right everywhere."""
     fields = {"none": model_fields(1, calcified=False)}
-    return models_of(comparison(fields, fields), "none")
+    return models_in(comparison(fields, fields), "none")
+
+
+def models_in(both: xr.Dataset, variant: str) -> Models:
+    return models_of(both.attrs["case"], variant, both.sel(variant=variant), PERIOD)

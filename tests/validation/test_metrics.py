@@ -14,6 +14,7 @@ from comparisons import (
     comparison,
     equal_models,
     model_fields,
+    models_in,
     two_models,
 )
 from hypothesis import given, settings
@@ -22,7 +23,7 @@ from hypothesis import strategies as st
 from cases.fields import FIELDS
 from validation import metrics
 from validation.cycle_quantities import CYCLE_QUANTITIES, phase_lag
-from validation.metrics import COLUMNS, Row, models_of, to_frame
+from validation.metrics import COLUMNS, Row, to_frame
 
 AFFECTED = {
     "pressure": {"pressure"},
@@ -179,8 +180,8 @@ class TestChanges:
             for seed in (1, 2)
         )
         both = comparison(rom, reference)
-        rows = [row for name in rom for row in rows_of(models_of(both, name))]
-        return rows, list(metrics.change_rows(rows, "none"))
+        rows = [row for name in rom for row in rows_of(models_in(both, name))]
+        return rows, list(metrics.change_rows(rows, {"none": "none", "local": "none"}))
 
     def test_a_change_is_the_value_less_the_baselines(self):
         rows, changes = self.rows()
@@ -214,12 +215,12 @@ class TestChanges:
 
     def test_without_a_baseline_there_is_no_change(self):
         rows, _ = self.rows()
-        assert list(metrics.change_rows(rows, "")) == []
+        assert list(metrics.change_rows(rows, {})) == []
 
     def test_no_ratio_over_nothing(self):
         base = Row("c", "none", "pressure", "value", 1, 1, 0.0, rom=0.0, reference=2.0)
         here = replace(base, variant="local", rom=1.0, reference=3.0)
-        (row,) = metrics.change_rows([base, here], "none")
+        (row,) = metrics.change_rows([base, here], {"none": "none", here.variant: "none"})
         assert (row.statistic, row.rom, row.reference, row.error) == ("change", 1.0, 1.0, 0.0)
 
 

@@ -38,11 +38,18 @@ def write_tube(
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0),
     variables: Collection[str] = VARIABLES,
     nodal_pressure: bool = False,
-    names: tuple[str, str] = ("Blood", "Wall"),
+    names: tuple[str, ...] = ("Blood", "Wall"),
+    length: float = 1.0,
+    time: float = 1.0,
+    pressure: float = 1.0,
 ) -> Path:
-    """Write a plot file of equal states; pressure in the lumen's domains as averages or at nodes."""
+    """Write a plot file of equal states; pressure in the lumen's domains as averages or at nodes.
+
+    ``names``: of the lumen's domains, then one for each block of the wall, the last for all that follow.
+    ``length``, ``time``, ``pressure``: units of the file, SI.
+    """
     place = frame(axis, phi_zero, origin)
-    coordinates = tube.coordinates @ place.rotation + place.origin
+    coordinates = (tube.coordinates @ place.rotation + place.origin) / length
     blocks = [*tube.lumen, *tube.vessel_wall]
     wet = len(tube.lumen)
     items = {
@@ -55,8 +62,8 @@ def write_tube(
         ),
     }
     node_data = {
-        "displacement": tube.displacement @ place.rotation,
-        "nodal fluid velocity": tube.velocity @ place.rotation,
+        "displacement": tube.displacement @ place.rotation / length,
+        "nodal fluid velocity": tube.velocity @ place.rotation * time / length,
     }
     data, node_index = {}, 0
     for name in VARIABLES:
@@ -64,19 +71,19 @@ def write_tube(
             node_index += 1
             data["node", node_index] = {0: node_data[name]}
     if "fluid pressure" in variables:
-        data["domain", 1] = {n + 1: _pressure(tube, blocks[n], nodal_pressure) for n in range(wet)}
+        data["domain", 1] = {n + 1: _pressure(tube, blocks[n], nodal_pressure) / pressure for n in range(wet)}
     first = np.cumsum([0, *(len(block.nodes) for block in blocks)]) + 1
     domains = [
         xplt.DomainOf(
             FEBIO_TYPE[block.kind],
             np.column_stack([np.arange(len(block.nodes)) + first[n], block.nodes]).tolist(),
-            names[n >= wet],
+            names[0] if n < wet else names[min(1 + n - wet, len(names) - 1)],
             part=1 + (n >= wet),
         )
         for n, block in enumerate(blocks)
     ]
     writer = xplt.Writer()
-    states = [writer.state(float(time), data) for time in times]
+    states = [writer.state(float(instant) / time, data) for instant in times]
     mesh = writer.mesh(xplt.MeshOf(coordinates, domains, parts={1: "Blood", 2: "Vessel"}))
     path.write_bytes(writer.file(writer.root([items[name] for name in variables]), mesh, *states))
     return path

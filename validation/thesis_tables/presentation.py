@@ -12,8 +12,9 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from validation.output import write_text
 from validation.thesis_tables.experiment import Experiment, Row
-from validation.thesis_tables.store import sources_digest, write_text
+from validation.thesis_tables.store import sources_digest
 
 COLUMNS = ("case", "quantity", "unit", "ours", "thesis", "relative_difference", "low", "high", "met")
 

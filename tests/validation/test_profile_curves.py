@@ -1,0 +1,85 @@
+"""error(γ): its least value is the closest profile's, and its rows are the curve at the models' own γ."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from comparisons import CELLS, PERIOD, TIMES, two_models
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from validation.profile_curves import EXPONENTS, error_curves, profile_rows
+from validation.profiles import closest_profile, errors_at
+
+Y = np.linspace(0.0, 1.0, 25)
+ABOUT = {"compare_i": CELLS[0], "compare_j": CELLS[1], "compare_times_s": TIMES}
+
+
+def family(gamma):
+    return (gamma + 2) / gamma * (1 - Y**gamma)
+
+
+@given(st.floats(0.3, 50.0), st.floats(0.3, 50.0))
+def test_error_of_one_profile_against_another(gamma, other):
+    v, s = 0.2 * family(gamma), family(other)
+    u = (v @ s) / (s @ s)
+    expected = np.linalg.norm(v - u * s) / np.linalg.norm(v)
+    assert_allclose(errors_at(v[None], Y, np.array([[other]])), expected, atol=1e-12)
+
+
+@given(st.lists(st.floats(0.05, 1.0), min_size=24, max_size=24))
+def test_the_closest_profile_is_the_curves_lowest_point(values):
+    v = np.append(values, 0.0)[None]
+    best = closest_profile(v, Y)
+    curve = errors_at(v, Y, EXPONENTS[None])
+    assert curve.min() >= best.error[0] - 1e-12
+    assert_allclose(errors_at(v, Y, best.exponent[:, None]), best.error[:, None], atol=1e-12)
+
+
+def test_no_flow_has_no_error():
+    assert np.all(np.isnan(errors_at(np.zeros((1, 25)), Y, EXPONENTS[None])))
+
+
+@pytest.fixture
+def models():
+    """Two models whose velocity profiles belong to the family of profiles."""
+    found = two_models()
+    gamma = found.reference["profile_exponent"]
+    y = found.reference["y"]
+    profile = 0.2 * (1 - y**gamma)
+    axial = profile.transpose("time", "x", "phi", "y")
+    error = found.reference["profile_error"] * 0.0
+    return replace(found, reference=found.reference.assign(axial_velocity=axial, profile_error=error))
+
+
+def test_curves_stand_at_the_tabulated_cells(models):
+    curves = error_curves(models, ABOUT)
+    assert curves.dims == ("compare_time", "compare_x", "compare_phi", "exponent")
+    assert curves.shape == (2, 3, 2, EXPONENTS.size)
+    lowest = EXPONENTS[np.argmin(curves.to_numpy(), axis=-1)]
+    own = models.reference["profile_exponent"].to_numpy()
+    for place in np.ndindex(2, 3, 2):
+        n = round(TIMES[place[0]] / PERIOD * 20)
+        expected = own[n, CELLS[0][place[1]] - 1, CELLS[1][place[2]] - 1]
+        assert lowest[place] == pytest.approx(expected, rel=0.03)
+
+
+def test_rows_hold_the_error_with_either_models_exponent(models):
+    found = list(profile_rows(models, ABOUT))
+    assert len(found) == 12
+    for row in found:
+        n = round(row.t_s / PERIOD * 20)
+        at = (n, row.i - 1, row.j - 1)
+        y = models.reference["y"].to_numpy()
+        v = models.reference["axial_velocity"].to_numpy()[at]
+        gamma = models.rom["profile_exponent"].to_numpy()[at]
+        assert row.reference == 0.0
+        assert row.rom == pytest.approx(errors_at(v[None], y, np.array([[gamma]]))[0, 0], abs=1e-12)
+
+
+def test_a_reference_without_profiles_has_no_rows(models):
+    nothing = models.reference["axial_velocity"] * np.nan
+    bare = replace(models, reference=models.reference.assign(axial_velocity=nothing))
+    assert list(profile_rows(bare, ABOUT)) == []
+    assert np.all(np.isnan(error_curves(bare, ABOUT)))
