@@ -113,7 +113,8 @@ class Stepper:
         self.sweeps += sweeps
         if status != layout.OK:
             cell = (i + 1, j + 1) if status in CELL_FAILURES else (0, 0)
-            raise FAILURES[status](self.time + time_step, *cell)
+            hint = "try a smaller time_step" if status == layout.NOT_CONVERGED else ""
+            raise FAILURES[status](self.time + time_step, *cell, hint)
         if not (np.all(np.isfinite(self._fields.area)) and np.all(np.isfinite(self._fields.flow))):
             raise NotFinite(self.time, 0, 0)
         inflow, outflow = self._workspace.exchanged

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, PATTERNS, SECTION_OUTLET, artery
 
-from solver.boundary import ResistanceOutlet
+from solver import steady
+from solver.boundary import Inlet, NonReflectingOutlet, ResistanceOutlet
 from solver.columns import columns_of
 from solver.diagnostics import Limits, Monitor
 from solver.errors import (
@@ -14,6 +15,7 @@ from solver.errors import (
     NoAdmissibleProfile,
     NotConverged,
     NotFinite,
+    NotSteady,
     RunFailure,
     SolverError,
     WallCollapse,
@@ -23,7 +25,7 @@ from solver.simulate import simulate
 from solver.steady import steady_state
 from solver.stepper import Stepper
 from solver.walk import Stop, history_of
-from solver.waveform import Waveform
+from solver.waveform import Waveform, constant
 
 
 def advance(model, state, velocity=DIASTOLE, time_step=1e-3, steps=1):
@@ -80,7 +82,9 @@ def test_a_step_without_solution_does_not_converge():
     model = artery(24, 4)
     state = uniform_state(model, 9330.0, DIASTOLE)
     state.time = 2.0
-    with pytest.raises(NotConverged, match=r"did not converge .* at t = 2.001 s$") as caught:
+    with pytest.raises(
+        NotConverged, match=r"did not converge at t = 2.001 s: try a smaller time_step$"
+    ) as caught:
         advance(model, state, velocity=6.0)
     assert (caught.value.i, caught.value.j) == (0, 0)
 
@@ -167,3 +171,23 @@ def test_a_failed_step_does_not_touch_the_state():
     for after in (state, stepper.state()):
         for part in fields(State):
             np.testing.assert_array_equal(getattr(after, part.name), getattr(before, part.name))
+
+
+def test_a_march_without_a_steady_state_names_it_and_no_time_step(monkeypatch):
+    monkeypatch.setattr(steady, "MOST_STEPS", 3)
+    with pytest.raises(NotSteady) as caught:
+        steady_state(artery(12, 4), DIASTOLE)
+    assert str(caught.value).startswith("no steady state was reached at t = ")
+    assert "time_step" not in str(caught.value)
+
+
+def test_a_wave_from_rest_into_a_patch_has_no_profile_however_small_it_is():
+    """Soft rows fill while stiff ones hardly flow: u/D leaves (0, 1) by a ratio that no amplitude changes."""
+    failures = []
+    for pressure in (1e-2, 1.0, 1e2):
+        inlet = Inlet("pressure", constant(pressure, 1.0))
+        model = artery(60, 24, inlet=inlet, outlet=NonReflectingOutlet(), patch=PATTERNS["local, sharp"])
+        with pytest.raises(NoAdmissibleProfile) as caught:
+            simulate(model, [0.0, 1e-3], 2e-5, uniform_state(model, 0.0, 0.0))
+        failures.append((caught.value.i, caught.value.j))
+    assert all(22 <= i <= 25 and j == 10 for i, j in failures), failures  # within the patch, at its edge
