@@ -5,8 +5,7 @@ from numpy.typing import NDArray
 
 from solver.diagnostics import Columns
 from solver.model import Model, State
-from solver.profiles import continuity_exponent
-from solver.schemes.layout import REST_VELOCITY
+from solver.schemes.balance import closed_exponents
 from solver.schemes.walls import tabulated_area
 from solver.wall import area_from_pressure
 
@@ -24,14 +23,18 @@ def columns_of(model: Model, state: State) -> Columns:
     inlet = 1.5 * pressure[0] - 0.5 * pressure[1]
     if model.inlet.kind == "pressure" and state.inlet_pressure is not None:
         inlet = state.inlet_pressure
-    area = np.vstack([1.5 * state.area[0] - 0.5 * state.area[1], state.area, outlet_area(model, outlet)])
-    inner = 0.5 * (state.flow[1:] + state.flow[:-1])
-    flow = np.vstack([state.flow[:1], inner, state.flow[-1:]])
-    if model.fixed_exponent is not None:
-        exponent = np.full(area.shape, model.fixed_exponent)
+    shape = (model.grid.n_x + 2, model.grid.n_phi)
+    area, flow, exponent, load = (np.empty(shape) for _ in Columns._fields)
+    area[0], area[1:-1] = 1.5 * state.area[0] - 0.5 * state.area[1], state.area
+    area[-1] = outlet_area(model, outlet)
+    flow[0], flow[-1] = state.flow[0], state.flow[-1]
+    np.multiply(state.flow[1:] + state.flow[:-1], 0.5, out=flow[1:-1])
+    load[0], load[1:-1], load[-1] = inlet, pressure, outlet
+    if model.fixed_exponent is None:
+        closed_exponents(area, flow, exponent)
     else:
-        exponent = continuity_exponent(flow / area, REST_VELOCITY)
-    return Columns(area, flow, exponent, np.vstack([inlet, pressure, outlet]))
+        exponent[:] = model.fixed_exponent
+    return Columns(area, flow, exponent, load)
 
 
 def outlet_area(model: Model, pressure: Floats) -> Floats:

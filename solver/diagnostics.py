@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from solver.errors import AxisNotContinuous, CourantExceeded, EnergyNotBalanced, MassNotConserved, RunFailure
 from solver.model import Model
-from solver.schemes.balance import balance
+from solver.schemes.balance import balance, linear_wall
 from solver.schemes.walls import tabulated_area
 
 GAUSS_POINTS = 6  # of ∫A dP for a tabulated wall
@@ -130,9 +130,9 @@ class Monitor:
         """
         model, grid = self.model, self.model.grid
         cells = Columns(*(values[1:-1] for values in state))
-        slope = area_slope(model, cells)
+        slope, wall = wall_state(model, cells)
         found = balance(*state, slope, model.density, model.viscosity, grid.dx, grid.dphi)
-        stored = 0.5 * grid.dphi * grid.dx * float(np.sum(wall_energy(model, cells)))
+        stored = 0.5 * grid.dphi * grid.dx * wall
         now = np.array(
             [time, found.kinetic + stored, found.end_power, found.dissipated, found.profile_power, 0.0]
         )
@@ -187,29 +187,20 @@ def last_interval_weights(times: Floats) -> Floats:
     return np.asarray(np.linalg.solve(np.vander(places, increasing=True).T, moments), dtype=float)
 
 
-def area_slope(model: Model, cells: Columns) -> Floats:
-    """dA/dP of every cell, (n_x, n_phi), m²/Pa."""
+def wall_state(model: Model, cells: Columns) -> tuple[Floats, float]:
+    """dA/dP of every cell, (n_x, n_phi), m²/Pa, and the sum of ∫P dA from the reference area, J/m per ½dφ."""
+    start, rest, table = model.reference_pressure, model.radius, model.wall_table
+    slope = np.empty(cells.area.shape)
     if model.section_wall is not None:
-        return model.section_wall.area_and_slope(cells.pressure[:, 0])[1]
-    table = model.wall_table
-    if table is None:
-        return np.asarray(2 * model.radius**2 * np.sqrt(cells.area) / model.stiffness)
-    area, slope = np.empty(cells.area.shape), np.empty(cells.area.shape)
-    pressure = np.clip(cells.pressure, table.start, table.end)  # round-off may pass the table's end
-    tabulated_area(pressure, table.values, table.start, table.step, area, slope)
-    return slope
-
-
-def wall_energy(model: Model, cells: Columns) -> Floats:
-    """∫P dA from the reference area to A, (n_x, n_phi), J/m per unit of ½dφ."""
-    start, rest = model.reference_pressure, model.radius
-    if model.wall_table is None and model.section_wall is None:
-        radius, widened = np.sqrt(cells.area), cells.area - rest**2
-        stretched = model.stiffness / rest**2 * (2 / 3 * (radius**3 - rest**3) - rest * widened)
-        return np.asarray(stretched + start * widened)
-    load = cells.pressure - start
-    places, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+        pressure = cells.pressure
+        slope = model.section_wall.area_and_slope(pressure[:, 0])[1]
+    elif table is None:
+        return slope, float(linear_wall(cells.area, model.stiffness, rest, start, slope))
+    else:
+        pressure = np.clip(cells.pressure, table.start, table.end)  # round-off may pass the table's end
+        tabulated_area(pressure, table.values, table.start, table.step, np.empty(slope.shape), slope)
+    load = pressure - start
     mean_area = np.zeros(load.shape)
-    for place, weight in zip(places, weights, strict=True):
+    for place, weight in zip(*np.polynomial.legendre.leggauss(GAUSS_POINTS), strict=True):
         mean_area += 0.5 * weight * model.area(start + 0.5 * (1 + place) * load)
-    return np.asarray(cells.pressure * cells.area - start * rest**2 - mean_area * load)
+    return slope, float(np.sum(pressure * cells.area - start * rest**2 - mean_area * load))

@@ -49,7 +49,13 @@ class BeyondWallTable(RunFailure):
 class NotConverged(RunFailure):
     """The iteration of one implicit step did not converge."""
 
-    reason = "the implicit step did not converge (try a smaller time_step)"
+    reason = "the implicit step did not converge"
+
+
+class NotSteady(RunFailure):
+    """A march to a steady state did not reach one."""
+
+    reason = "no steady state was reached"
 
 
 class NotFinite(RunFailure):

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from solver.errors import ModelError, NoAdmissibleProfile, NotConverged, RunFailure, WallCollapse
+from solver.errors import ModelError, NoAdmissibleProfile, NotSteady, RunFailure, WallCollapse
 from solver.godunov_setup import Setup, State
 from solver.godunov_slabs import Slab, advance, cut, gather
 from solver.schemes import godunov_layout as layout
@@ -221,7 +221,7 @@ def march_to_steady(
     Raises
     ------
     RunFailure
-        NotConverged when ``longest`` has passed, or as :meth:`Stepper.advance`.
+        NotSteady when ``longest`` has passed, or as :meth:`Stepper.advance`.
     """
     ramp_steps = int(np.ceil((not_before - initial.time) / setup.time_step * (1 - 1e-12)))
     with Stepper(setup, initial) as stepper:
@@ -231,7 +231,7 @@ def march_to_steady(
             left = np.ceil((longest - stepper.time) / setup.time_step)
             if stepper.advance(int(min(_CHUNK, left)), criteria) and (also is None or also(stepper.state)):
                 return SteadyState(stepper.state, stepper.steps, stepper.courant)
-        raise NotConverged(stepper.time, 0, 0, "the criteria for a steady state do not hold")
+        raise NotSteady(stepper.time, 0, 0, "the criteria for a steady state do not hold")
 
 
 def thesis_criteria(kind: str, tolerance: float = 1e-4) -> Stopping:

@@ -173,9 +173,10 @@ def _adaptive(
         start = stepper.state()
         try:
             defect, error = _doubled(stepper, time, step)
-        except RunFailure:
+        except RunFailure as failure:
             if step <= shortest:
-                raise
+                detail = f"in steps of {step:.2g} s too"
+                raise type(failure)(failure.time, failure.i, failure.j, detail) from failure
             stepper.restore(start)
             wanted = SLOWEST_GROWTH * step
             continue

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from solver.boundary import NonReflectingOutlet, ResistanceOutlet
-from solver.errors import ModelError, NotConverged, RunFailure
+from solver.errors import ModelError, NotSteady, RunFailure
 from solver.model import Model, State, uniform_state
 from solver.schemes.layout import REST_VELOCITY
 from solver.stepper import offsets
@@ -53,7 +53,7 @@ def steady_state(model: Model, inlet_value: float, start: State | None = None) -
     ModelError
         If the wall law has no state near the steady one.
     RunFailure
-        NotConverged when 20,000 steps do not suffice, or what a step of 10 µs raises; the message says that
+        NotSteady when 20,000 steps do not suffice, or what a step of 10 µs raises; the message says that
         this happened on the way to the steady state.
     """
     stepper = stepper_of(model, start.copy() if start else _guess(model, inlet_value))
@@ -65,7 +65,9 @@ def steady_state(model: Model, inlet_value: float, start: State | None = None) -
             stepper.advance(value, time_step, 1.0, offset)
         except RunFailure as failure:
             if time_step < 2 * SHORTEST_STEP:
-                detail = "on the march to the steady state, whose time this is"
+                detail = (
+                    f"on the march to the steady state, whose time this is, in steps of {time_step:.2g} s too"
+                )
                 raise type(failure)(failure.time, failure.i, failure.j, detail) from failure
             stepper.restore(state)
             time_step = longest = 0.5 * time_step
@@ -75,7 +77,7 @@ def steady_state(model: Model, inlet_value: float, start: State | None = None) -
             state.time = 0.0
             return state
         time_step = min(GROWTH * time_step, longest)
-    raise NotConverged(stepper.time, 0, 0, f"no steady state within {MOST_STEPS} steps of the march to it")
+    raise NotSteady(stepper.time, 0, 0, f"{MOST_STEPS} steps of the march to it do not suffice")
 
 
 def _settled(model: Model, before: State, after: State, time_step: float) -> bool:

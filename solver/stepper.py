@@ -124,7 +124,8 @@ class Stepper:
 def failure(status: int, time: float, i: int, j: int) -> RunFailure:
     """Error that names a kernel's status, time (s) and cell, which kernels count from 0."""
     cell = (i + 1, j + 1) if status in CELL_FAILURES else (0, 0)
-    return FAILURES[status](time, *cell)
+    hint = "try a smaller time_step" if status == layout.NOT_CONVERGED else ""
+    return FAILURES[status](time, *cell, hint)
 
 
 def mass_defect(model: Model, exchanged: Floats, change: float, time_step: float) -> float:

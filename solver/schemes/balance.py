@@ -88,10 +88,81 @@ def _gap_of(axis: Array) -> float:
     mean = float(np.mean(axis))
     if abs(mean) < REST_VELOCITY:
         return 0.0
-    largest = 0.0
     for j in range(axis.size):
-        largest = max(largest, abs(axis[j] - mean))
-    return largest / abs(mean)
+        axis[j] = abs(axis[j] - mean)
+    return _largest(axis) / abs(mean)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _largest(values: Array) -> float:
+    largest = values[0]
+    for j in range(1, values.size):
+        largest = max(largest, values[j])
+    return float(largest)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _speeds(
+    area: Array, flow: Array, exponent: Array, slope: Array, density: float, wave: Array, stream: Array
+) -> None:
+    """Largest |λ±| and |u| of each row."""
+    for j in range(flow.size):
+        u = flow[j] / area[j]
+        excess = 1.0 / (exponent[j] + 1.0)
+        drift = (1.0 + excess) * u
+        wave[j] = abs(drift) + np.sqrt(area[j] / (density * slope[j]) + drift * u * excess)
+        stream[j] = abs(u)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+def _shape_power(
+    area: Array, flow: Array, excess: tuple[Array, Array, Array], before: float, after: float
+) -> float:
+    """∑ u × difference of (α−1)uQ over the cell, from it and its neighbours' weights."""
+    left, here, right = excess
+    total = 0.0
+    for j in range(flow.size):
+        change = after * (right[j] - here[j]) + before * (here[j] - left[j])
+        total += flow[j] / area[j] * change
+    return total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def closed_exponents(area: Array, flow: Array, exponent: Array) -> None:
+    """γ = 2u/(D − u), D = 2 mean_φ(u), of columns; 2 at rest, NaN where none is admissible."""
+    u = np.empty(area.shape[1])
+    for i in range(area.shape[0]):
+        fastest = 0.0
+        for j in range(u.size):
+            u[j] = flow[i, j] / area[i, j]
+        for j in range(u.size):
+            fastest = max(fastest, abs(u[j]))
+        d, gamma = 2.0 * np.mean(u), exponent[i]
+        if fastest < REST_VELOCITY:
+            gamma[:] = 2.0
+            continue
+        for j in range(u.size):
+            gamma[j] = 2.0 * u[j] / (d - u[j])
+        for j in range(u.size):
+            if not u[j] * (d - u[j]) > 0.0:
+                gamma[j] = np.nan
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+def linear_wall(
+    area: Array, stiffness: Array, radius: float, reference_pressure: float, slope: Array
+) -> float:
+    """∑ ∫P dA of P = P₀ + β(R − R₀)/R₀² from R₀² to A, J/m per ½dφ; leaves dA/dP in ``slope``."""
+    rest, total = radius * radius, 0.0
+    for i in range(area.shape[0]):
+        A, beta, dA_dP = area[i], stiffness[i], slope[i]
+        for j in range(A.size):
+            R = np.sqrt(A[j])
+            stretch = R - radius
+            dA_dP[j] = 2.0 * rest * R / beta[j]
+            total += reference_pressure * (A[j] - rest)
+            total += beta[j] / rest * stretch * stretch * (2.0 / 3.0 * stretch + radius)
+    return total
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -120,9 +191,9 @@ def balance(
         m, rad.
     """
     columns, n = area.shape
-    wide, axis = np.empty((2, n + 2)), np.empty(n)
+    wide, axis, stream = np.empty((2, n + 2)), np.empty(n), np.empty(n)
     left, here, right = np.empty(n), np.empty(n), np.empty(n)
-    carried, lost, shaped, wave, stream, gap = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    carried, lost, shaped, wave, flowing, gap = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     _excess(area[0], flow[0], exponent[0], left)
     _excess(area[1], flow[1], exponent[1], here)
     for i in range(1, columns - 1):
@@ -133,15 +204,9 @@ def balance(
         _excess(area[i + 1], flow[i + 1], exponent[i + 1], right)
         before = 1.0 if i == 1 else 0.5  # the ends' columns lie on the faces
         after = 1.0 if i == columns - 2 else 0.5
-        A, Q, gamma, slope = area[i], flow[i], exponent[i], area_slope[i - 1]
-        for j in range(n):
-            u = Q[j] / A[j]
-            shaped += u * (after * (right[j] - here[j]) + before * (here[j] - left[j]))
-            excess = 1.0 / (gamma[j] + 1.0)
-            drift = (1.0 + excess) * u
-            speed = np.sqrt(A[j] / (density * slope[j]) + drift * u * excess)
-            wave = max(wave, abs(drift) + speed)
-            stream = max(stream, abs(u))
+        shaped += _shape_power(area[i], flow[i], (left, here, right), before, after)
+        _speeds(area[i], flow[i], exponent[i], area_slope[i - 1], density, axis, stream)
+        wave, flowing = max(wave, _largest(axis)), max(flowing, _largest(stream))
         left, here, right = here, right, left
     ends = _end_power(area[0], flow[0], pressure[0], density)
     ends -= _end_power(area[-1], flow[-1], pressure[-1], density)
@@ -152,6 +217,6 @@ def balance(
         density * sector * dx * lost,
         density * sector * shaped,
         wave,
-        stream,
+        flowing,
         gap,
     )

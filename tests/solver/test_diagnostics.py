@@ -8,9 +8,11 @@ from thesis_artery import DENSITY, DIASTOLE, LENGTH, PATTERNS, SECTION_OUTLET, V
 
 import solver.__main__ as command
 from solver.columns import columns_of
-from solver.diagnostics import Columns, Limits, Monitor, last_interval_weights, wall_energy
+from solver.diagnostics import Columns, Limits, Monitor, last_interval_weights, wall_state
 from solver.errors import AxisNotContinuous, CourantExceeded, EnergyNotBalanced, MassNotConserved
 from solver.model import uniform_state
+from solver.profiles import continuity_exponent
+from solver.schemes.balance import closed_exponents
 from solver.simulate import simulate
 from solver.steady import steady_state
 from solver.wall_table import MasterCurve, wall_table
@@ -86,9 +88,26 @@ def test_a_tabulated_wall_stores_what_a_linear_one_does():
     pressure = np.random.default_rng(1).uniform(-5e3, 14e3, (12, 8))
     area = model.area(pressure)
     cells = Columns(area, area, area, pressure)
-    np.testing.assert_allclose(
-        wall_energy(tabulated, cells), wall_energy(model, cells), rtol=1e-10, atol=1e-14
-    )
+    (slope, energy), (wanted_slope, wanted) = wall_state(tabulated, cells), wall_state(model, cells)
+    np.testing.assert_allclose(slope, wanted_slope, rtol=1e-10)
+    assert energy == pytest.approx(wanted, rel=1e-10)
+
+
+def test_a_linear_wall_stores_the_integral_of_its_pressure():
+    model = artery(3, 1, reference_pressure=7e3)
+    areas = np.linspace(model.radius**2, 1.3 * model.radius**2, 10_001)
+    pressures = model.pressure(np.broadcast_to(areas[:, None, None], (areas.size, 3, 1)))
+    _, energy = wall_state(model, Columns(*(np.full((3, 1), areas[-1]) for _ in range(4))))
+    assert energy == pytest.approx(3 * np.trapezoid(pressures[:, 0, 0], areas), rel=1e-7)
+
+
+def test_exponents_of_columns_are_those_of_the_closure():
+    random = np.random.default_rng(2)
+    area, flow = random.uniform(5e-6, 7e-6, (6, 9)), 1e-6 * random.uniform(0.5, 1.5, (6, 9))
+    flow[2], flow[4, 3] = 0.0, -1e-6
+    found = np.empty(area.shape)
+    closed_exponents(area, flow, found)
+    np.testing.assert_allclose(found, continuity_exponent(flow / area, 1e-9), rtol=1e-12)
 
 
 def test_weights_of_the_last_interval_integrate_cubics():

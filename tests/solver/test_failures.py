@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, PATTERNS, SECTION_OUTLET, artery
 
-from solver.boundary import ResistanceOutlet
+from solver import steady
+from solver.boundary import Inlet, NonReflectingOutlet, ResistanceOutlet
 from solver.columns import columns_of
 from solver.diagnostics import Limits, Monitor
 from solver.errors import (
@@ -14,16 +15,17 @@ from solver.errors import (
     NoAdmissibleProfile,
     NotConverged,
     NotFinite,
+    NotSteady,
     RunFailure,
     SolverError,
     WallCollapse,
 )
 from solver.model import State, uniform_state
-from solver.simulate import simulate
+from solver.simulate import simulate, snapshots
 from solver.steady import steady_state
 from solver.stepper import Stepper
 from solver.walk import Stop, history_of
-from solver.waveform import Waveform
+from solver.waveform import Waveform, constant
 
 
 def advance(model, state, velocity=DIASTOLE, time_step=1e-3, steps=1):
@@ -80,7 +82,9 @@ def test_a_step_without_solution_does_not_converge():
     model = artery(24, 4)
     state = uniform_state(model, 9330.0, DIASTOLE)
     state.time = 2.0
-    with pytest.raises(NotConverged, match=r"did not converge .* at t = 2.001 s$") as caught:
+    with pytest.raises(
+        NotConverged, match=r"did not converge at t = 2.001 s: try a smaller time_step$"
+    ) as caught:
         advance(model, state, velocity=6.0)
     assert (caught.value.i, caught.value.j) == (0, 0)
 
@@ -167,3 +171,43 @@ def test_a_failed_step_does_not_touch_the_state():
     for after in (state, stepper.state()):
         for part in fields(State):
             np.testing.assert_array_equal(getattr(after, part.name), getattr(before, part.name))
+
+
+def test_a_march_without_a_steady_state_names_it_and_no_time_step(monkeypatch):
+    monkeypatch.setattr(steady, "MOST_STEPS", 3)
+    with pytest.raises(NotSteady) as caught:
+        steady_state(artery(12, 4), DIASTOLE)
+    assert str(caught.value).startswith("no steady state was reached at t = ")
+    assert "time_step" not in str(caught.value)
+
+
+def test_a_wave_from_rest_into_a_patch_has_no_profile_at_its_foot():
+    """Stiff rows conduct the wave faster: at its foot they carry more than twice the section's mean."""
+    inlet = Inlet("pressure", constant(1e3, 1.0))
+    model = artery(60, 24, inlet=inlet, outlet=NonReflectingOutlet(), patch=PATTERNS["local, sharp"])
+    run = snapshots(model, np.arange(0, 1e-3, 5e-6), 5e-6, uniform_state(model, 0.0, 0.0))
+    with pytest.raises(NoAdmissibleProfile) as caught:
+        list(run)
+    assert caught.value.j == 10  # the first row of the patch
+    flow = flow_before(model, caught.value.time)[caught.value.i - 1]
+    share = flow / (2 * flow.mean())
+    assert np.all(share[9:15] > 1.0)
+    assert np.all((share[:9] > 0.0) & (share[:9] < 0.5))
+
+
+def flow_before(model, failure):
+    """Q one step of 5 µs before a failure."""
+    times = np.arange(0, failure - 2.5e-6, 5e-6)
+    return simulate(model, times, 5e-6, uniform_state(model, 0.0, 0.0)).flow[-1]
+
+
+@pytest.mark.parametrize("share", [0.05, 0.5])
+def test_a_flow_to_begin_with_carries_a_jump_in_small_steps(share):
+    model = artery(
+        60,
+        24,
+        inlet=lambda time: DIASTOLE * (1 + share * (np.asarray(time) > 0)),
+        patch=PATTERNS["local, sharp"],
+    )
+    run = simulate(model, [0.0, 5e-3], 2e-5, steady_state(model, DIASTOLE))
+    assert run.steps == 250

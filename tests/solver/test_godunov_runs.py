@@ -7,7 +7,7 @@ import pytest
 from godunov_cases import at_rest, flowing, local
 
 from solver.calcification import Patch
-from solver.errors import ModelError, NoAdmissibleProfile, NotConverged, WallCollapse
+from solver.errors import ModelError, NoAdmissibleProfile, NotSteady, WallCollapse
 from solver.godunov import Stepper, march, march_to_steady, thesis_criteria
 from solver.godunov_setup import LIMITERS, State, held, load, reference_state, repeated
 from solver.smooth_wall import smooth_wall
@@ -195,7 +195,7 @@ def test_failure_on_an_end_names_its_neighbour():
 
 def test_no_steady_state_in_time():
     setup = artery(30, 1, 1e-5, None)
-    with pytest.raises(NotConverged):
+    with pytest.raises(NotSteady, match=r"no steady state was reached at t = 0\.001 s: the criteria"):
         march_to_steady(setup, reference_state(setup), thesis_criteria("flow"), longest=1e-3)
 
 

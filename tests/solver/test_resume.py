@@ -98,8 +98,9 @@ def test_interrupted_and_resumed(run, case_file, outlet, control, after):
     assert not pieces_folder(parts).exists()
 
 
-@pytest.mark.parametrize("after", [3, 11])
-def test_the_explicit_scheme_is_resumed_too(run, case_file, after):
+@pytest.mark.parametrize(("after", "outlet"), [(3, "resistance"), (11, "windkessel")])
+def test_the_explicit_scheme_is_resumed_too(run, case_file, after, outlet):
+    changed(case_file, BOUNDARIES["resistance"], BOUNDARIES[outlet])
     changed(case_file, "scheme: semi_implicit", "scheme: godunov")
     changed(case_file, "time_step: 2 ms, cycles: 2", "time_step: 23 us, cycles: 1")
     changed(case_file, "transition: sharp", "transition: {x: 2.5 mm, phi: 67.5 deg}")
