@@ -90,7 +90,7 @@ def _across(values: dict[str, Floats], flux: xr.DataArray | None, rays: Rays) ->
     axial = values["axial_velocity"]
     found: dict[str, Floats] = {
         "radial_velocity": np.asarray(radial, dtype=np.float32),
-        "axial_dominance_radial": dominance(axial, radial),
+        "axial_dominance_radial": dominance(axial, radial).max(axis=0),
     }
     if crossing is None:
         return found
@@ -98,7 +98,7 @@ def _across(values: dict[str, Floats], flux: xr.DataArray | None, rays: Rays) ->
     return found | {
         "azimuthal_flux": crossing,
         "azimuthal_velocity": np.asarray(azimuthal, dtype=np.float32),
-        "axial_dominance_azimuthal": dominance(axial, azimuthal),
+        "axial_dominance_azimuthal": dominance(axial, azimuthal).max(axis=0),
     }
 
 

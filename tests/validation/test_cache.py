@@ -140,7 +140,7 @@ def made(tmp_path):
     def case(*declared):
         content = bands(small_case("none"), *declared)
         content["reference"] |= {"lumen": ["Blood"], "wall": ["Wall"], "time_offset": "0 s"}
-        content["variants"]["none"]["reference"]["plot_file"] = str(plot)
+        content["variants"]["none"]["reference"] = {"plot_file": str(plot)}
         return content
 
     return case
