@@ -5,19 +5,78 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
+from cases.errors import RefusedValueError
 from cases.section import Section
-from cases.values import ExistingFile, Length, Time, Words, distinct, one_of, refused, words_of
-from cases.wording import choices
+from cases.values import (
+    Context,
+    Length,
+    RunFile,
+    Switch,
+    Time,
+    TimeStep,
+    Words,
+    counted,
+    distinct,
+    existing_file,
+    number,
+    one_of,
+    refused,
+    words_of,
+)
+from cases.wording import choices, shown_path
 
 Axis = Literal["x", "y", "z"]
 Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
 Items = Literal["nodes", "elements"]
+MOST_ELEMENTS = 10_000  # in one direction
+MOST_CYCLES, MOST_STATES_PER_CYCLE = 100, 1000
+ElementCount = Annotated[int, counted(MOST_ELEMENTS)]
+CycleCount = Annotated[int, counted(MOST_CYCLES)]
+StatesPerCycle = Annotated[int, counted(MOST_STATES_PER_CYCLE)]
+Bias = Annotated[float, number("a number from 0.05 to 20", lambda value: 0.05 <= value <= 20)]
 NEXT_AXIS: dict[str, Direction] = {"x": "y", "y": "z", "z": "x"}
 
 
 def _default_phi_zero(reference: dict[str, Any]) -> Direction:
     # where the axis was refused there is none, and the section is refused whatever stands here
     return NEXT_AXIS[reference.get("axis", "z")]
+
+
+class Generate(Section):
+    """How the FEBio model of a case is made (`python -m febio_io.feb`), as long as there is no plot file.
+
+    Attributes
+    ----------
+    mesh : tuple of int
+        Elements around (a multiple of 4 from 8 on), from the axis to the wall (2 or more), through the wall,
+        and along the artery.
+    bias : float
+        Radial size of the elements at the axis over that of those at the wall.
+    cycles : int
+        Cycles after the ramp, which lasts until `reference.time_offset`.
+    time_step : float or None
+        In s; a 200th of the cycle if None.
+    states_per_cycle : int
+        States of the plot file, at least.
+    data_records : bool
+        Whether FEBio also writes some values as text.
+    """
+
+    mesh: tuple[ElementCount, ElementCount, ElementCount, ElementCount] = (24, 8, 3, 30)
+    bias: Bias = 1.0
+    cycles: CycleCount = 2
+    time_step: TimeStep | None = None
+    states_per_cycle: StatesPerCycle = 40
+    data_records: Switch = False
+
+    @field_validator("mesh")
+    @classmethod
+    def _mesh(cls, mesh: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
+        if mesh[0] < 8 or mesh[0] % 4:
+            raise refused(mesh[0], "a multiple of 4 from 8 on", key=(0,))
+        if mesh[1] < 2:
+            raise refused(mesh[1], "2 or more", key=(1,))
+        return mesh
 
 
 class RecordFile(Section):
@@ -34,7 +93,7 @@ class RecordFile(Section):
         tell them.
     """
 
-    file: ExistingFile
+    file: RunFile
     items: Annotated[Items, one_of(Items)]
     columns: tuple[Words, ...] | None = None
 
@@ -49,6 +108,8 @@ class FebioReference(Section):
 
     Attributes
     ----------
+    generate : Generate or None
+        How the model is made whose run writes the files below; without it, they must exist.
     plot_file : pathlib.Path
         Absolute path of the .xplt file.
     axis : str
@@ -68,15 +129,31 @@ class FebioReference(Section):
     """
 
     kind: Annotated[Literal["febio"], one_of(Literal["febio"])]
-    plot_file: ExistingFile
+    generate: Generate | None = None
+    plot_file: RunFile
     axis: Annotated[Axis, one_of(Axis)]
     origin: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
     phi_zero: Annotated[Direction, one_of(Direction)] = Field(default_factory=_default_phi_zero)
     time_offset: Time = 0.0
     lumen: tuple[Words, ...] | None = None
     wall: tuple[Words, ...] | None = None
-    log: ExistingFile | None = None
+    log: RunFile | None = None
     data_records: tuple[RecordFile, ...] = ()
+
+    @field_validator("plot_file", "log", mode="before")
+    @classmethod
+    def _is_there(cls, stated: object, info: "ValidationInfo[Context | None]") -> object:
+        if stated is not None and info.data.get("generate") is None:
+            existing_file(stated, info.context)
+        return stated
+
+    @field_validator("data_records")
+    @classmethod
+    def _are_there(cls, records: tuple[RecordFile, ...], info: ValidationInfo) -> tuple[RecordFile, ...]:
+        for place, record in enumerate(records):
+            if info.data.get("generate") is None and not record.file.is_file():
+                raise RefusedValueError(f"{shown_path(str(record.file))}: no such file", (place, "file"))
+        return records
 
     @field_validator("phi_zero")
     @classmethod
