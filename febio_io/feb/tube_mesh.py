@@ -33,8 +33,8 @@ class TubeMesh:
     wall : (n, 8) int64 array
         Hexahedra of the wall, likewise.
     axis, interface, inlet, across, along_zero : int64 arrays
-        Nodes: on the axis; between lumen and wall; inside the lumen in the first plane; of the wall at φ = ±π/2; of
-        the wall at φ = 0 and π.
+        Nodes: on the axis; between lumen and wall; inside the lumen in the first plane; of the wall at
+        φ = ±π/2; of the wall at φ = 0 and π.
     blood : int64 array
         Nodes of the lumen, the interface's among them.
     surfaces : dict of str to tuple of Facets
