@@ -23,7 +23,7 @@ from cases.values import (
     refused,
     words_of,
 )
-from cases.wording import choices, shown_path
+from cases.wording import choices
 
 Axis = Literal["x", "y", "z"]
 Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
@@ -147,13 +147,24 @@ class FebioReference(Section):
             existing_file(stated, info.context)
         return stated
 
-    @field_validator("data_records")
+    @field_validator("plot_file")
     @classmethod
-    def _are_there(cls, records: tuple[RecordFile, ...], info: ValidationInfo) -> tuple[RecordFile, ...]:
+    def _as_febio_names_it(cls, path: Path, info: ValidationInfo) -> Path:
+        if info.data.get("generate") is not None and path.suffix != ".xplt":
+            raise refused(path.name, "with generate, a name that ends in .xplt, as FEBio writes it")
+        return path
+
+    @field_validator("data_records", mode="before")
+    @classmethod
+    def _are_there(cls, stated: object, info: "ValidationInfo[Context | None]") -> object:
+        records = stated if isinstance(stated, list) and info.data.get("generate") is None else []
         for place, record in enumerate(records):
-            if info.data.get("generate") is None and not record.file.is_file():
-                raise RefusedValueError(f"{shown_path(str(record.file))}: no such file", (place, "file"))
-        return records
+            if isinstance(record, dict) and "file" in record:
+                try:
+                    existing_file(record["file"], info.context)
+                except RefusedValueError as error:
+                    raise RefusedValueError(str(error), (place, "file")) from error
+        return stated
 
     @field_validator("phi_zero")
     @classmethod

@@ -23,6 +23,7 @@ from validation.account import described
 from validation.bands import FAIL, MISSING, OK, band_rows
 from validation.comparison import VariantRun, at_common_instants, check_variants, combine
 from validation.errors import ValidationError
+from validation.generated import check_computed
 from validation.metrics import Row, models_of
 from validation.output import check_target, result_directory, write_json, write_metrics
 from validation.run import run_variants, watching
@@ -78,6 +79,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str]) -> Outcome:
         For input that is wrong; ``target`` is then as it was.
     """
     check_variants(file.variants)
+    check_computed(file)
     with watching() as watch, result_directory(target) as directory:
         runs, notes = at_common_instants(run_variants(file.variants, watch))
         with watch.step("metrics"):

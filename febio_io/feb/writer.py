@@ -26,7 +26,7 @@ def write_model(model: ArteryModel, path: Path) -> tuple[str, ...]:
     model : ArteryModel
         The model.
     path : Path
-        The file.
+        The file; its folder is made if it is not there.
 
     Returns
     -------
@@ -48,6 +48,7 @@ def write_model(model: ArteryModel, path: Path) -> tuple[str, ...]:
         hard = calcified.elements
         warnings = () if calcified.warning is None else (calcified.warning,)
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         descriptor, name = tempfile.mkstemp(prefix=".febio_io-", suffix=".feb", dir=path.parent)
     except OSError as error:
         raise FebioFileError(f"{path}: cannot be written: {error.strerror}") from error

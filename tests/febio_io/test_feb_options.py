@@ -297,10 +297,12 @@ def test_a_variant_must_be_chosen_where_there_are_several(tmp_path, capsys):
     assert "none is chosen; --variant allows: none, axisymmetric, local" in capsys.readouterr().err
 
 
-def test_a_folder_that_is_not_there(write, tmp_path, capsys):
-    path = tmp_path / "absent" / "model.feb"
-    assert write(f"--output={path}", "--mesh=8,2,1,3") == 2
-    assert f"{path}: cannot be written: No such file" in capsys.readouterr().err
+def test_where_a_model_is_written(write, tmp_path, capsys):
+    path = tmp_path / "new" / "folder" / "model.feb"
+    assert write(f"--output={path}", "--mesh=8,2,1,3") == 0
+    assert [file.name for file in path.parent.iterdir()] == ["model.feb"]
+    assert write(f"--output={path / 'below'}", "--mesh=8,2,1,3") == 2
+    assert f"{path / 'below'}: cannot be written: " in capsys.readouterr().err
 
 
 def test_sizes_are_checked_wherever_they_come_from():
