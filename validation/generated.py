@@ -34,7 +34,7 @@ def _instructions(case: Path, missing: Mapping[str, FebioReference]) -> str:
         plot, model = reference.plot_file, reference.plot_file.with_suffix(".feb")
         make = ["python", "-m", "febio_io.feb", str(case), "--variant", name, "--output", shown_path(model)]
         lines += [
-            f"variant {name!r}: reference.plot_file: {shown_path(plot)}: not there yet; two commands make it:",
+            f"variant {name!r}: reference.plot_file: {shown_path(plot)}: not there yet; to make it:",
             f"  {shlex.join(make)}",
             f"  {shlex.join(['python', '-m', 'febio_io.run', shown_path(model)])}",
         ]

@@ -28,6 +28,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     options = _parser().parse_args(arguments)
     try:
+        if options.output.suffix != ".feb":
+            raise FebioModelError(f"--output {options.output}: allowed: a name that ends in .feb")
         file = load_case_file(options.case)
         name, case = _variant(file, options.variant)
         model = artery_model(case, _choices(options, case))

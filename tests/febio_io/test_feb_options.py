@@ -282,6 +282,7 @@ def test_a_smooth_calcification_is_refused(write, capsys):
             ("--time-step", "0.1 s"),
             "time step: 0.1 s; allowed in a FEBio model: up to 0.0199332 s, for 40 states",
         ),
+        (("--output", "case.yaml"), "--output case.yaml: allowed: a name that ends in .feb"),
         (("--variant", "local"), "it has no 'local'; --variant allows: none"),
     ],
 )
@@ -301,8 +302,8 @@ def test_where_a_model_is_written(write, tmp_path, capsys):
     path = tmp_path / "new" / "folder" / "model.feb"
     assert write(f"--output={path}", "--mesh=8,2,1,3") == 0
     assert [file.name for file in path.parent.iterdir()] == ["model.feb"]
-    assert write(f"--output={path / 'below'}", "--mesh=8,2,1,3") == 2
-    assert f"{path / 'below'}: cannot be written: " in capsys.readouterr().err
+    assert write(f"--output={path / 'b.feb'}", "--mesh=8,2,1,3") == 2
+    assert f"{path / 'b.feb'}: cannot be written: " in capsys.readouterr().err
 
 
 def test_sizes_are_checked_wherever_they_come_from():

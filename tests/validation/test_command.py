@@ -384,7 +384,7 @@ class TestWrongInput:
         assert compare.main(["small.yaml"]) == 2
         lines = capsys.readouterr().err.splitlines()
         assert lines[:3] == [
-            "variant 'none': reference.plot_file: my runs/none.xplt: not there yet; two commands make it:",
+            "variant 'none': reference.plot_file: my runs/none.xplt: not there yet; to make it:",
             "  python -m febio_io.feb small.yaml --variant none --output 'my runs/none.feb'",
             "  python -m febio_io.run 'my runs/none.feb'",
         ]
