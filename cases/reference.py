@@ -28,6 +28,7 @@ from cases.wording import choices
 Axis = Literal["x", "y", "z"]
 Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
 Items = Literal["nodes", "elements"]
+Core = Literal["wedges", "o_grid"]
 MOST_ELEMENTS = 10_000  # in one direction
 MOST_CYCLES, MOST_STATES_PER_CYCLE = 100, 1000
 ElementCount = Annotated[int, counted(MOST_ELEMENTS)]
@@ -51,7 +52,9 @@ class Generate(Section):
         Elements around (a multiple of 4 from 8 on), from the axis to the wall (2 or more), through the wall,
         and along the artery.
     bias : float
-        Radial size of the elements at the axis over that of those at the wall.
+        Radial size of the innermost elements over that of those at the wall.
+    core : str
+        Elements at the axis: wedges, or the squares of an O-grid (a multiple of 8 elements around).
     cycles : int
         Cycles after the ramp, which lasts until `reference.time_offset`.
     time_step : float or None
@@ -64,6 +67,7 @@ class Generate(Section):
 
     mesh: tuple[ElementCount, ElementCount, ElementCount, ElementCount] = (24, 8, 3, 30)
     bias: Bias = 1.0
+    core: Annotated[Core, one_of(Core)] = "wedges"
     cycles: CycleCount = 2
     time_step: TimeStep | None = None
     states_per_cycle: StatesPerCycle = 40

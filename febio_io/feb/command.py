@@ -70,6 +70,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--bias", type=float, metavar="B", help="radial size at the axis over that at the wall (1)"
     )
+    parser.add_argument(
+        "--core", choices=("wedges", "o_grid"), help="elements at the axis: wedges (default), or squares"
+    )
     parser.add_argument("--cycles", type=int, metavar="N", help="cycles after the ramp (2)")
     parser.add_argument("--time-step", metavar="TIME", help='e.g. "1 ms" (a 200th of the cycle)')
     parser.add_argument("--states-per-cycle", type=int, metavar="N", help="states of the plot file (40)")
@@ -99,7 +102,11 @@ def _choices(options: argparse.Namespace, case: Case) -> Choices:
     step = stated.time_step if options.time_step is None else _time_step(options.time_step)
     records = options.data_records or stated.data_records
     return Choices(
-        size=MeshSize(n_theta, n_r, n_wall, n_z, stated.bias if options.bias is None else options.bias),
+        size=MeshSize(
+            *(n_theta, n_r, n_wall, n_z),
+            bias=stated.bias if options.bias is None else options.bias,
+            core=options.core or stated.core,
+        ),
         cycles=_count("--cycles", options.cycles, stated.cycles, MOST_CYCLES),
         time_step=step,
         states_per_cycle=_count(

@@ -10,6 +10,7 @@ from febio_io.errors import FebioError
 
 Floats = NDArray[np.float64]
 WallLaw = Literal["isotropic elastic", "neo-Hookean"]
+Core = Literal["wedges", "o_grid"]
 LARGEST_MESH = 50_000_000  # elements; FEBio numbers nodes and elements with 32 bits
 
 
@@ -65,11 +66,14 @@ class MeshSize:
     n_theta : int
         A multiple of 4, as nodes at φ = 0, π/2, π and 3π/2 are supported; 8 or more.
     n_r : int
-        2 or more; the innermost are wedges (penta6), the others hexahedra (hex8).
+        2 or more; with wedges at the axis, those count too.
     n_wall, n_z : int
         1 or more.
     bias : float
-        Radial size of the elements at the axis over that of those at the wall; 1 for equal ones.
+        Radial size of the innermost elements over that of those at the wall; 1 for equal ones.
+    core : {"wedges", "o_grid"}
+        Wedges (penta6) that meet in the axis, or a square of hexahedra (hex8), which needs a multiple of 8
+        elements around. All other elements are hexahedra.
     """
 
     n_theta: int = 24
@@ -77,10 +81,14 @@ class MeshSize:
     n_wall: int = 3
     n_z: int = 30
     bias: float = 1.0
+    core: Core = "wedges"
 
     def __post_init__(self) -> None:
-        if self.n_theta < 8 or self.n_theta % 4:
-            raise FebioModelError(f"mesh: {self.n_theta} elements around; allowed: a multiple of 4 from 8 on")
+        share = 8 if self.core == "o_grid" else 4
+        if self.n_theta < 8 or self.n_theta % share:
+            raise FebioModelError(
+                f"mesh: {self.n_theta} elements around; allowed: a multiple of {share} from 8 on"
+            )
         for name, count, least in (
             ("from the axis to the wall", self.n_r, 2),
             ("through the wall", self.n_wall, 1),
@@ -96,7 +104,13 @@ class MeshSize:
     @property
     def n_elements(self) -> int:
         """Elements of the whole mesh."""
-        return self.n_theta * (self.n_r + self.n_wall) * self.n_z
+        squares = (self.n_theta // 4) ** 2 if self.core == "o_grid" else 0
+        return (squares + self.n_theta * (self.n_r + self.n_wall)) * self.n_z
+
+    @property
+    def core_elements(self) -> int:
+        """Elements at the axis between two planes."""
+        return (self.n_theta // 4) ** 2 if self.core == "o_grid" else self.n_theta
 
 
 @dataclass(frozen=True)

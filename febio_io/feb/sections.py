@@ -245,5 +245,5 @@ def output(model: ArteryModel, axis_nodes: list[int]) -> Element:
 
 
 def _middle_elements(size: MeshSize) -> str:
-    first = size.n_z // 2 * size.n_theta + 1
-    return f"{first}:{first + size.n_theta - 1}"
+    first = size.n_z // 2 * size.core_elements + 1
+    return f"{first}:{first + size.core_elements - 1}"

@@ -11,8 +11,9 @@ import numpy as np
 from febio_io.errors import FebioFileError
 from febio_io.feb import sections
 from febio_io.feb.calcified import calcified_elements
+from febio_io.feb.cross_section import Integers
 from febio_io.feb.model import ArteryModel, Floats
-from febio_io.feb.tube_mesh import Facets, Integers, TubeMesh, tube_mesh
+from febio_io.feb.tube_mesh import ELEMENT_KINDS, Facets, TubeMesh, tube_mesh
 
 ROWS_AT_ONCE = 20_000
 NODE = '<node id="%d">%.9e,%.9e,%.9e</node>\n'
@@ -98,14 +99,14 @@ def _mesh(mesh: TubeMesh, hard: Integers) -> Iterator[str]:
     yield from _node_rows(mesh.nodes)
     yield "</Nodes>\n"
     first = 1
-    for name, kind, elements in (
-        (sections.CORE, "penta6", mesh.core),
-        (sections.LUMEN, "hex8", mesh.lumen),
-        (sections.WALL_HEALTHY, "hex8", mesh.wall[~hard]),
-        (sections.WALL_CALCIFIED, "hex8", mesh.wall[hard]),
+    for name, elements in (
+        (sections.CORE, mesh.core),
+        (sections.LUMEN, mesh.lumen),
+        (sections.WALL_HEALTHY, mesh.wall[~hard]),
+        (sections.WALL_CALCIFIED, mesh.wall[hard]),
     ):
         if len(elements):
-            yield f'<Elements type="{kind}" name="{name}">\n'
+            yield f'<Elements type="{ELEMENT_KINDS[elements.shape[1]]}" name="{name}">\n'
             yield from _rows("elem", first, elements)
             yield "</Elements>\n"
             first += len(elements)

@@ -13,13 +13,15 @@ from ruamel.yaml import YAML
 
 from febio_io.feb.calcified import calcified_elements
 from febio_io.feb.command import main
+from febio_io.feb.cross_section import cross_section
 from febio_io.feb.model import FebioModelError, Frame, MeshSize, Patch, Vessel
 from febio_io.feb.structure import read_structure
-from febio_io.feb.tube_mesh import radii, tube_mesh
+from febio_io.feb.tube_mesh import tube_mesh
 
 ROOT = Path(__file__).parents[2]
 VESSEL = Vessel(15e-3, 2.5e-3, 0.5e-3)
 SMALL = MeshSize(8, 3, 2, 12)
+O_GRID = MeshSize(16, 3, 2, 12, core="o_grid")
 
 
 @pytest.fixture
@@ -51,8 +53,9 @@ def volumes(mesh):
     cells = np.hstack(
         [np.insert(part - 1, 0, part.shape[1], axis=1).ravel() for part in (mesh.core, mesh.lumen, mesh.wall)]
     )
+    core = {6: pv.CellType.WEDGE, 8: pv.CellType.HEXAHEDRON}[mesh.core.shape[1]]
     kinds = np.repeat(
-        [pv.CellType.WEDGE, pv.CellType.HEXAHEDRON, pv.CellType.HEXAHEDRON],
+        [core, pv.CellType.HEXAHEDRON, pv.CellType.HEXAHEDRON],
         [len(mesh.core), len(mesh.lumen), len(mesh.wall)],
     )
     return pv.UnstructuredGrid(cells, kinds, mesh.nodes).compute_cell_sizes(length=False, area=False)[
@@ -60,16 +63,17 @@ def volumes(mesh):
     ]
 
 
+@pytest.mark.parametrize("size", [SMALL, O_GRID])
 @pytest.mark.parametrize("axis", "xyz")
 @pytest.mark.parametrize("phi_zero", ["x", "y", "z", "-x", "-y", "-z"])
-def test_elements_are_right_handed_along_any_axis(axis, phi_zero):
+def test_elements_are_right_handed_along_any_axis(size, axis, phi_zero):
     if phi_zero[-1] == axis:
         return
     frame = Frame(axis, phi_zero, (1e-3, -2e-3, 3e-3))
-    mesh = tube_mesh(VESSEL, SMALL, frame)
+    mesh = tube_mesh(VESSEL, size, frame)
     found = volumes(mesh)
     assert found.min() > 0
-    polygon = 0.5 * SMALL.n_theta * np.sin(2 * np.pi / SMALL.n_theta)
+    polygon = 0.5 * size.n_theta * np.sin(2 * np.pi / size.n_theta)
     assert found.sum() == pytest.approx(polygon * 3e-3**2 * 15e-3)
     for name, sign in (("Inlet", -1), ("Outlet", 1)):
         for facets in mesh.surfaces[name]:
@@ -80,8 +84,17 @@ def test_elements_are_right_handed_along_any_axis(axis, phi_zero):
     assert ((np.cross(b - a, c - a) * a).sum(axis=1) > 0).all()
 
 
-def test_every_node_belongs_to_an_element_and_no_two_coincide():
-    mesh = tube_mesh(VESSEL, SMALL, Frame())
+@pytest.mark.parametrize("size", [SMALL, O_GRID, MeshSize(24, 8, 3, 2, core="o_grid", bias=3.0)])
+def test_every_node_belongs_to_an_element_and_no_two_coincide(size):
+    mesh = tube_mesh(VESSEL, size, Frame())
+    assert len(mesh.core) + len(mesh.lumen) + len(mesh.wall) == size.n_elements
+    assert len(mesh.core) == size.core_elements * size.n_z
+    assert_allclose(mesh.nodes[mesh.axis - 1, :2], 0)
+    assert_allclose(np.hypot(*mesh.nodes[mesh.interface - 1, :2].T), 2.5e-3)
+    assert set(mesh.blood) == set(np.concatenate([mesh.core.ravel(), mesh.lumen.ravel()]))
+    assert set(mesh.inlet) == set(mesh.blood[mesh.blood <= len(mesh.nodes) // (size.n_z + 1)]) - set(
+        mesh.interface
+    )
     used = np.unique(np.concatenate([part.ravel() for part in (mesh.core, mesh.lumen, mesh.wall)]))
     assert used.tolist() == list(range(1, len(mesh.nodes) + 1))
     assert len(np.unique(np.round(mesh.nodes, 9), axis=0)) == len(mesh.nodes)
@@ -90,7 +103,8 @@ def test_every_node_belongs_to_an_element_and_no_two_coincide():
 @settings(max_examples=40, deadline=None)
 @given(st.integers(2, 30), st.floats(0.05, 20))
 def test_the_bias_grades_the_lumen_alone(n_r, bias):
-    found = radii(VESSEL, MeshSize(8, n_r, 4, 2, bias))
+    section = cross_section(VESSEL, MeshSize(8, n_r, 4, 2, bias))
+    found = section.points[section.rings[:, 0] - 1, 0]
     widths = np.diff(found, prepend=0)
     assert_allclose(widths[0] / widths[n_r - 1], bias, rtol=1e-9)
     assert found[n_r - 1] == VESSEL.radius
@@ -224,6 +238,15 @@ def test_time_steps_end_where_the_cycles_do(write, tmp_path):
     control = Parsed(tmp_path / "model.feb").control()
     assert (control["/step_size"], control["/plot_stride"]) == (1e-3, 39)
     assert control["/time_stepper/dtmin"] == pytest.approx(1e-3 / 64)
+
+
+def test_an_o_grid(write, tmp_path):
+    assert write("--mesh", "16,3,2,5", "--core", "o_grid", "--data-records", variant="local") == 0
+    found = read_structure(tmp_path / "model.feb")
+    assert found.elements["LumenCore"] == 16 * 5
+    assert found.elements["Lumen"] == 16 * 3 * 5
+    assert Parsed(tmp_path / "model.feb").output()[2][1][2] == "33:48"
+    assert write("--mesh", "12,3,2,5", generate={"core": "o_grid"}) == 2
 
 
 def test_the_case_may_state_how_it_is_made(write, tmp_path):
