@@ -333,3 +333,16 @@ def test_sizes_are_checked_wherever_they_come_from():
     for counts in ((7, 2, 1, 1), (4, 2, 1, 1), (8, 1, 1, 1), (8, 2, 0, 1), (8, 2, 1, 0)):
         with pytest.raises(FebioModelError, match="mesh: "):
             MeshSize(*counts)
+
+
+def test_an_interrupt_leaves_the_older_model(write, tmp_path, monkeypatch):
+    (tmp_path / "model.feb").write_text("older")
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("febio_io.feb.sections.output", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        write("--mesh", "8,2,1,3")
+    assert {file.name for file in tmp_path.iterdir()} == {"case.yaml", "model.feb"}
+    assert (tmp_path / "model.feb").read_text() == "older"
