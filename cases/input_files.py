@@ -31,6 +31,31 @@ def find_file(name: str, folder: Path) -> Path | None:
     return None
 
 
+def place_for(name: str, folder: Path) -> Path:
+    """Say where a file is to be that does not exist yet.
+
+    Parameters
+    ----------
+    name : str
+        Path of the file, relative or absolute.
+    folder : pathlib.Path
+        Absolute folder of the case file.
+
+    Returns
+    -------
+    pathlib.Path
+        An absolute path: in that folder, or else in the nearest folder above, where its own folder exists.
+    """
+    for start in (folder, *folder.parents):
+        candidate = start / name
+        try:
+            if candidate.parent.is_dir():
+                return candidate
+        except OSError:
+            continue
+    return folder / name
+
+
 def read_file(path: Path, largest: int) -> bytes:
     """Read a regular file: no folder, device or pipe, which may never end.
 

@@ -6,17 +6,23 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, Tag, ValidationInfo, field_validator
 
-from cases.errors import QuantityError
+from cases.errors import QuantityError, RefusedValueError
 from cases.section import Section
 from cases.units import DIMENSIONS, parse_quantity
 from cases.values import (
     Context,
     ExistingFile,
     Length,
+    RunFile,
+    Switch,
     Time,
+    TimeStep,
     ValueKind,
     Words,
+    counted,
     distinct,
+    existing_file,
+    number,
     one_of,
     refused,
     whole_number,
@@ -28,6 +34,13 @@ CellCount = Annotated[int, whole_number("a whole number from 1 on", lambda value
 Axis = Literal["x", "y", "z"]
 Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
 Items = Literal["nodes", "elements"]
+Core = Literal["wedges", "o_grid"]
+MOST_ELEMENTS = 10_000  # in one direction
+MOST_CYCLES, MOST_STATES_PER_CYCLE = 100, 1000
+ElementCount = Annotated[int, counted(MOST_ELEMENTS)]
+CycleCount = Annotated[int, counted(MOST_CYCLES)]
+StatesPerCycle = Annotated[int, counted(MOST_STATES_PER_CYCLE)]
+Bias = Annotated[float, number("a number from 0.05 to 20", lambda value: 0.05 <= value <= 20)]
 NEXT_AXIS: dict[str, Direction] = {"x": "y", "y": "z", "z": "x"}
 
 
@@ -96,6 +109,46 @@ def _unit(dimension: str) -> ValueKind:
     return ValueKind(parse, allowed, {"type": "string"})
 
 
+class Generate(Section):
+    """How the FEBio model of a case is made (`python -m febio_io.feb`), as long as there is no plot file.
+
+    Attributes
+    ----------
+    mesh : tuple of int
+        Elements around (a multiple of 4 from 8 on), from the axis to the wall (2 or more), through the wall,
+        and along the artery.
+    bias : float
+        Radial size of the innermost elements over that of those at the wall.
+    core : str
+        Elements at the axis: wedges, or the squares of an O-grid (a multiple of 8 elements around).
+    cycles : int
+        Cycles after the ramp, which lasts until `reference.time_offset`.
+    time_step : float or None
+        In s; a 200th of the cycle if None.
+    states_per_cycle : int
+        States of the plot file, at least.
+    data_records : bool
+        Whether FEBio also writes some values as text.
+    """
+
+    mesh: tuple[ElementCount, ElementCount, ElementCount, ElementCount] = (24, 8, 3, 30)
+    bias: Bias = 1.0
+    core: Annotated[Core, one_of(Core)] = "wedges"
+    cycles: CycleCount = 2
+    time_step: TimeStep | None = None
+    states_per_cycle: StatesPerCycle = 40
+    data_records: Switch = False
+
+    @field_validator("mesh")
+    @classmethod
+    def _mesh(cls, mesh: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
+        if mesh[0] < 8 or mesh[0] % 4:
+            raise refused(mesh[0], "a multiple of 4 from 8 on", key=(0,))
+        if mesh[1] < 2:
+            raise refused(mesh[1], "2 or more", key=(1,))
+        return mesh
+
+
 class RecordFile(Section):
     """A data record that FEBio wrote as text during the run of the plot file.
 
@@ -110,7 +163,7 @@ class RecordFile(Section):
         tell them.
     """
 
-    file: ExistingFile
+    file: RunFile
     items: Annotated[Items, one_of(Items)]
     columns: tuple[Words, ...] | None = None
 
@@ -125,6 +178,8 @@ class FebioReference(Section):
 
     Attributes
     ----------
+    generate : Generate or None
+        How the model is made whose run writes the files below; without it, they must exist.
     plot_file : pathlib.Path
         Absolute path of the .xplt file.
     axis : str or tuple of float
@@ -151,7 +206,8 @@ class FebioReference(Section):
     """
 
     kind: Annotated[Literal["febio"], one_of(Literal["febio"])]
-    plot_file: ExistingFile
+    generate: Generate | None = None
+    plot_file: RunFile
     axis: Annotated[Axis | Vector, _direction(Axis)]
     origin: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
     phi_zero: Annotated[Direction | Vector, _direction(Direction)] = Field(default_factory=_default_phi_zero)
@@ -163,7 +219,7 @@ class FebioReference(Section):
     length_unit: Annotated[float, _unit("length")] = 1.0
     time_unit: Annotated[float, _unit("time")] = 1.0
     pressure_unit: Annotated[float, _unit("pressure")] = 1.0
-    log: ExistingFile | None = None
+    log: RunFile | None = None
     data_records: tuple[RecordFile, ...] = ()
 
     @property
@@ -171,6 +227,32 @@ class FebioReference(Section):
         """Absolute paths of the run's files."""
         log = () if self.log is None else (self.log,)
         return (self.plot_file, *log, *(record.file for record in self.data_records))
+
+    @field_validator("plot_file", "log", mode="before")
+    @classmethod
+    def _is_there(cls, stated: object, info: "ValidationInfo[Context | None]") -> object:
+        if stated is not None and info.data.get("generate") is None:
+            existing_file(stated, info.context)
+        return stated
+
+    @field_validator("plot_file")
+    @classmethod
+    def _as_febio_names_it(cls, path: Path, info: ValidationInfo) -> Path:
+        if info.data.get("generate") is not None and path.suffix != ".xplt":
+            raise refused(path.name, "with generate, a name that ends in .xplt, as FEBio writes it")
+        return path
+
+    @field_validator("data_records", mode="before")
+    @classmethod
+    def _are_there(cls, stated: object, info: "ValidationInfo[Context | None]") -> object:
+        records = stated if isinstance(stated, list) and info.data.get("generate") is None else []
+        for place, record in enumerate(records):
+            if isinstance(record, dict) and "file" in record:
+                try:
+                    existing_file(record["file"], info.context)
+                except RefusedValueError as error:
+                    raise RefusedValueError(str(error), (place, "file")) from error
+        return stated
 
     @field_validator("phi_zero", "symmetry")
     @classmethod

@@ -16,7 +16,7 @@ from cases.calcification import (
 from cases.comparison import Band, Cells, Compare
 from cases.inlet import FlowInlet, Inlet, PressureInlet, VelocityInlet
 from cases.outlet import NonReflectingOutlet, Outlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
-from cases.reference import FebioReference, RecordFile, Reference, TablesReference
+from cases.reference import FebioReference, Generate, RecordFile, Reference, TablesReference
 from cases.section import Section, told_apart_by
 from cases.solver_settings import (
     FEWEST_ROWS,
@@ -53,6 +53,7 @@ __all__ = [
     "FebioReference",
     "FlowInlet",
     "FourierSeries",
+    "Generate",
     "Geometry",
     "GodunovSolver",
     "HomogeneousWall",

@@ -11,7 +11,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from cases.column_file import FLOW_RATE, PRESSURE, VELOCITY, Column
 from cases.errors import ColumnFileError, QuantityError, RefusedValueError
-from cases.input_files import find_file
+from cases.input_files import find_file, place_for
 from cases.ranges import (
     ANGLES,
     COMPLIANCES,
@@ -165,7 +165,8 @@ def distinct(items: tuple[T, ...]) -> tuple[T, ...]:
     return items
 
 
-def _file(value: object, context: Context | None) -> Path:
+def existing_file(value: object, context: Context | None) -> Path:
+    """Return the absolute path of a file that a case names; refuse what is none."""
     if not isinstance(value, str) or not value:
         raise refused(value, "the path of a file")
     folder = Path.cwd() if context is None else context.folder
@@ -176,11 +177,24 @@ def _file(value: object, context: Context | None) -> Path:
     return found
 
 
+def _run_file(value: object, context: Context | None) -> Path:
+    """Return the path of a file where it is or, as long as there is none, where it is to be."""
+    if not isinstance(value, str) or not value:
+        raise refused(value, "the path of a file")
+    folder = Path.cwd() if context is None else context.folder
+    return find_file(value, folder) or place_for(value, folder)
+
+
+def counted(most: int) -> ValueKind:
+    """Return the kind of whole numbers from 1 to `most`."""
+    return whole_number(f"a whole number from 1 to {most}", lambda value: 1 <= value <= most)
+
+
 def _waveform_of(quantity: Column) -> ValueKind:
     """Return the kind of waveforms of a quantity, stated as the path of a file."""
 
     def parse(value: object, context: Context | None) -> Waveform:
-        path = _file(value, context)
+        path = existing_file(value, context)
         try:
             return read_waveform(path, name=shown_path(str(value)), quantity=quantity)
         except ColumnFileError as error:
@@ -190,7 +204,7 @@ def _waveform_of(quantity: Column) -> ValueKind:
 
 
 def _wall_curve(value: object, context: Context | None) -> WallCurve:
-    path = _file(value, context)
+    path = existing_file(value, context)
     try:
         return read_wall_curve(path, name=shown_path(str(value)))
     except ColumnFileError as error:
@@ -261,7 +275,8 @@ Words = Annotated[str, text("a text", r"(?s).*\S.*")]
 NAME_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}"
 NAME_CHARACTERS = "up to 64 letters, digits, - and _"
 Name = Annotated[str, text(f"{NAME_CHARACTERS}, e.g. axisymmetric", NAME_PATTERN)]
-ExistingFile = Annotated[Path, ValueKind(_file, "the path of a file", PATH_SCHEMA)]
+ExistingFile = Annotated[Path, ValueKind(existing_file, "the path of a file", PATH_SCHEMA)]
+RunFile = Annotated[Path, ValueKind(_run_file, "the path of a file", PATH_SCHEMA)]
 _SAMPLES = PlainSerializer(_samples, when_used="json")
 VelocityWaveform = Annotated[Waveform, _waveform_of(VELOCITY), _SAMPLES]
 FlowWaveform = Annotated[Waveform, _waveform_of(FLOW_RATE), _SAMPLES]

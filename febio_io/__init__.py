@@ -1,4 +1,4 @@
-"""Readers for FEBio's result files: plot files, logs and data records.
+"""FEBio's files: readers for plot files, logs and data records, and models of arteries.
 
     from febio_io.xplt import open_plot
     from febio_io.log import read_log
@@ -16,5 +16,6 @@ beside pyvista 0.49 or later. ``meshio.read("case.xplt")`` works after ``import 
 meshio knows no entry points; meshio itself is an optional requirement: ``pip install
 arterial-rom-validation[meshio]``.
 
-``python -m febio_io FILE`` tells what a file holds, and writes it in other formats.
+``python -m febio_io FILE`` tells what a file holds, and writes results in other formats; ``python -m
+febio_io.feb CASE.yaml`` writes FEBio's model of a case, and ``python -m febio_io.run MODEL.feb`` runs it.
 """

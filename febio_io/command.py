@@ -1,4 +1,4 @@
-"""The command ``python -m febio_io FILE``: what a result file holds, and export to other formats."""
+"""The command ``python -m febio_io FILE``: what a file of FEBio holds, and export to other formats."""
 
 import argparse
 import json
@@ -11,6 +11,8 @@ from typing import Any, Literal
 from febio_io.data_records import looks_like_record, read_data_record
 from febio_io.errors import FebioError, FebioFileError
 from febio_io.export import Advance, export_log, export_plot, export_record
+from febio_io.feb.structure import read_structure
+from febio_io.feb.summary import model_lines, summarize_model
 from febio_io.files import open_file
 from febio_io.log import LOOKED_AT, looks_like_log, read_log
 from febio_io.selection import parse_states
@@ -43,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     try:
         kind = kind_of(options.file)
-        run = {"plot": _run_plot, "log": _run_log, "record": _run_record}[kind]
+        run = {"plot": _run_plot, "log": _run_log, "record": _run_record, "model": _run_model}[kind]
         lines = run(options)
     except FebioError as error:
         print(f"febio_io: {error}", file=sys.stderr)
@@ -52,7 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def kind_of(path: Path) -> Literal["plot", "log", "record"]:
+def kind_of(path: Path) -> Literal["plot", "log", "record", "model"]:
     """Tell a file's kind by what is in it, whatever its name.
 
     Raises
@@ -68,19 +70,21 @@ def kind_of(path: Path) -> Literal["plot", "log", "record"]:
     text = start.decode("utf-8", errors="replace")
     if start.startswith(MAGICS):
         return "plot"
+    if "<febio_spec" in text:
+        return "model"
     if looks_like_log(text):
         return "log"
     if looks_like_record(text):
         return "record"
     what = f"it starts with {start[:8]!r}" if start else "it is empty"
-    raise FebioFileError(f"{path}: not an FEBio plot file, log or data record: {what}")
+    raise FebioFileError(f"{path}: not an FEBio plot file, log, data record or model: {what}")
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m febio_io",
-        description="Tell what an FEBio plot file (.xplt), log (.log) or data record (.txt) holds, "
-        "or write it in another format.",
+        description="Tell what an FEBio plot file (.xplt), log (.log), data record (.txt) or model (.feb) "
+        "holds, or write results in another format.",
     )
     parser.add_argument("file", type=Path, metavar="FILE", help="the file; its kind is told by what is in it")
     parser.add_argument("--json", action="store_true", help="print JSON, for programs")
@@ -139,6 +143,13 @@ def _run_record(options: argparse.Namespace) -> list[str]:
         record, options.export, options.format or "csv", variables=options.variables, blocks=blocks
     )
     return _written(written, options.json)
+
+
+def _run_model(options: argparse.Namespace) -> list[str]:
+    if options.export is not None:
+        raise FebioFileError(f"{options.file}: a model cannot be exported")
+    summary = summarize_model(options.file, read_structure(options.file))
+    return _shown(summary, model_lines(summary), options.json)
 
 
 def _shown(summary: dict[str, Any], lines: Iterator[str], as_json: bool) -> list[str]:

@@ -36,6 +36,7 @@ from validation.comparison_file import comparison_file
 from validation.confidence import confidence_rows
 from validation.curved_section import curved_section_rows
 from validation.errors import ValidationError
+from validation.generated import check_computed
 from validation.metrics import Models, Row, models_of
 from validation.output import check_target, result_directory, write_json, write_metrics
 from validation.paraview import write_walls
@@ -105,6 +106,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
         For input that is wrong; ``target`` is then as it was.
     """
     check_variants(file.variants)
+    check_computed(file)
     with watching(cache) as watch, result_directory(target) as directory:
         rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):

@@ -170,6 +170,29 @@ def test_a_constant_inlet_has_no_pulse_to_compare(folder, event):
     ]
 
 
+@pytest.mark.parametrize(("stated", "found"), [("data/new.xplt", "data/new.xplt"), ("a/b.xplt", "a/b.xplt")])
+def test_a_reference_that_is_generated_need_not_exist_yet(folder, stated, found):
+    edit = (
+        "plot_file: data/run.xplt, axis: z",
+        f"plot_file: {stated}, axis: z, log: data/new.log, generate: {{}}",
+    )
+    reference = folder.load(edit).variants["none"].reference
+    assert reference.plot_file == folder.path / found
+    assert reference.log == folder.path / "data/new.log"
+    assert reference.generate.mesh == (24, 8, 3, 30)
+
+
+def test_a_file_to_come_is_in_the_nearest_folder_that_has_its_own(folder):
+    (folder.path / "deep").mkdir()
+    (folder.path / "deep/x.yaml").write_bytes(
+        folder.write(
+            ("plot_file: data/run.xplt, axis: z", "plot_file: data/new.xplt, axis: z, generate: {}")
+        ).read_bytes()
+    )
+    reference = load_case_file(folder.path / "deep/x.yaml").variants["none"].reference
+    assert reference.plot_file == folder.path / "data/new.xplt"
+
+
 def test_a_reference_may_have_a_log_and_data_records(folder):
     stated = (
         "axis: z, log: data/flow.csv, data_records: [{file: data/wall.csv, items: elements, columns: [fp]}]"

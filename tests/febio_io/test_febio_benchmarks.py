@@ -19,6 +19,12 @@ def test_a_little_fuzzing_finds_nothing(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_writing_models_is_measured():
+    result = run("febio_model.py", "--elements", 8000)
+    assert result.returncode == 0, result.stderr
+    assert len(result.stdout.splitlines()) == 3
+
+
 def test_reading_is_measured():
     result = run("febio_read.py", "--states", 10, "--megabytes", 1)
     assert result.returncode == 0, result.stderr

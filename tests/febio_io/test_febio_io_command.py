@@ -152,7 +152,7 @@ def test_the_module_runs_as_a_command(write):
     command = [sys.executable, "-m", "febio_io", str(write(b"no"))]
     result = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603
     assert result.returncode == 2
-    assert "not an FEBio plot file, log or data record" in result.stderr
+    assert "not an FEBio plot file, log, data record or model" in result.stderr
 
 
 @pytest.mark.parametrize("read", [open_plot, read_log, read_data_record])

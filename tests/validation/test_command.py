@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -22,6 +23,7 @@ from tubes import Tube
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from cases.fields import FIELDS
+from febio_io.feb import command as feb_command
 from validation import cached_runs, compare, febio_reference, output
 from validation.metrics import CELL_QUANTITIES, SECTION_QUANTITIES
 
@@ -441,6 +443,28 @@ class TestWrongInput:
         case["variants"]["none"]["reference"] = {"plot_file": str(path)}
         case["reference"] |= changes
         return case
+
+    def test_plot_file_to_be_computed(self, tmp_path, monkeypatch, capsys):
+        monkeypatch.chdir(tmp_path)
+        case = small_case("none", "local")
+        for name, variant in case["variants"].items():
+            variant["reference"] = {"plot_file": f"my runs/{name}.xplt", "generate": {"mesh": [8, 2, 1, 12]}}
+        written(case, tmp_path)
+        (tmp_path / "my runs").mkdir()
+        assert compare.main(["small.yaml"]) == 2
+        lines = capsys.readouterr().err.splitlines()
+        assert lines[:3] == [
+            "variant 'none': reference.plot_file: my runs/none.xplt: not there yet; to make it:",
+            "  python -m febio_io.feb small.yaml --variant none --output 'my runs/none.feb'",
+            "  python -m febio_io.run 'my runs/none.feb'",
+        ]
+        assert len(lines) == 6
+        assert feb_command.main(shlex.split(lines[1])[3:]) == 0
+        assert (tmp_path / "my runs/none.feb").is_file()
+
+    def test_log_that_the_run_has_not_left(self, tmp_path, refused):
+        case = self.plot(RUNS / "none.xplt", generate={}, log="absent.log")
+        assert refused(case) == "variant 'none': absent.log: no such file (reference)"
 
     def test_missing_plot_file(self, tmp_path, refused):
         line = refused(self.plot("absent.xplt"))

@@ -1,0 +1,215 @@
+"""From a checked case to FEBio's model of it."""
+
+import math
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from cases.reference import FebioReference, Reference
+from cases.schema import (
+    AxisymmetricCalcification,
+    Case,
+    FourierSeries,
+    HomogeneousWall,
+    LocalCalcification,
+    NonReflectingOutlet,
+    PressureOutlet,
+    ResistanceOutlet,
+    VelocityInlet,
+    WindkesselOutlet,
+)
+from cases.wall import row_wall
+from cases.waveform_file import Waveform
+from febio_io.feb.load_curves import Signal, cycles_after_ramp, ramp_curve
+from febio_io.feb.model import (
+    ArteryModel,
+    Blood,
+    FebioModelError,
+    Floats,
+    Frame,
+    MeshSize,
+    Outlet,
+    Patch,
+    PrescribedPressure,
+    Resistance,
+    Timing,
+    Vessel,
+    Wall,
+    WallLaw,
+    Windkessel,
+)
+
+# The linear walls of the reduced model stand for FEBio's Saint Venant–Kirchhoff material.
+WALL_LAWS: dict[str, WallLaw] = {
+    "thin": "isotropic elastic",
+    "thick": "isotropic elastic",
+    "saint_venant_kirchhoff": "isotropic elastic",
+    "neo_hookean": "neo-Hookean",
+}
+STEPS_PER_CYCLE = 200
+RAMP_SHARE = 0.25  # of a cycle, where no reference tells when the cycles start
+SLACK = 1e-3  # of a step, by which the last one may miss the end of the last cycle
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What a case leaves open.
+
+    Attributes
+    ----------
+    size : MeshSize
+        Numbers of elements.
+    cycles : int
+        Cycles after the ramp.
+    time_step : float or None
+        s; a 200th of the cycle unless given.
+    states_per_cycle : int
+        States of the plot file, at least.
+    records : str or None
+        First part of the names of data records; None to have none.
+    """
+
+    size: MeshSize
+    cycles: int = 2
+    time_step: float | None = None
+    states_per_cycle: int = 40
+    records: str | None = None
+
+
+def artery_model(case: Case, choices: Choices) -> ArteryModel:
+    """Give the model of a case.
+
+    Parameters
+    ----------
+    case : Case
+        The case. Where it states a FEBio reference, the model lies in its frame, and the cycles start at its
+        ``time_offset``.
+    choices : Choices
+        What the case leaves open.
+
+    Returns
+    -------
+    ArteryModel
+        The model.
+
+    Raises
+    ------
+    FebioModelError
+        If the case has what such a model cannot have; the message names the key.
+    """
+    geometry, reference, period = case.geometry, case.reference, case.inlet.period
+    offset = reference.time_offset if reference is not None else 0.0
+    ramp = offset if offset > 0 else RAMP_SHARE * period
+    if not isinstance(case.inlet, VelocityInlet):
+        raise _refused("inlet.kind", case.inlet.kind, "velocity")
+    inflow = _signal(case.inlet.waveform, case.inlet.value, case.inlet.fourier)
+    return ArteryModel(
+        vessel=Vessel(geometry.length, geometry.radius, geometry.wall_thickness),
+        size=choices.size,
+        frame=_frame(reference),
+        blood=Blood(case.blood.density, case.blood.viscosity),
+        wall=_wall(case),
+        patch=_patch(case),
+        inflow=cycles_after_ramp(inflow, period, choices.cycles, ramp),
+        ramp=ramp_curve(ramp),
+        outlet=_outlet(case, choices.cycles, ramp),
+        timing=_timing(period, ramp, choices),
+        records=choices.records,
+    )
+
+
+def _refused(key: str, found: str, allowed: str) -> FebioModelError:
+    return FebioModelError(f"{key}: {found}; allowed in a FEBio model: {allowed}")
+
+
+def _frame(reference: Reference | None) -> Frame:
+    """Frame of the run that the reference will be; the model is whole, along an axis of its frame, in SI units."""
+    if not isinstance(reference, FebioReference):
+        return Frame()
+    axis, phi_zero = reference.axis, reference.phi_zero
+    if not isinstance(axis, str):
+        raise _refused("reference.axis", str(list(axis)), "x, y, z")
+    if not isinstance(phi_zero, str):
+        raise _refused("reference.phi_zero", str(list(phi_zero)), "x, y, z, -x, -y, -z")
+    if reference.symmetry is not None:
+        raise _refused("reference.symmetry", "a plane", "none, the model is whole")
+    for name in ("length_unit", "time_unit", "pressure_unit"):
+        size = getattr(reference, name)
+        if size != 1.0:
+            raise _refused(f"reference.{name}", f"{size:g} of the SI unit", "the SI unit")
+    return Frame(axis, phi_zero, reference.origin)
+
+
+def _wall(case: Case) -> Wall:
+    wall = row_wall(case.wall)
+    if not isinstance(wall, HomogeneousWall):
+        raise _refused("wall.law", wall.law, ", ".join(WALL_LAWS))
+    if wall.reference_pressure != 0:
+        raise _refused(
+            "wall.reference_pressure", f"{wall.reference_pressure:g} Pa", "0 Pa: it starts unloaded"
+        )
+    return Wall(WALL_LAWS[wall.law], wall.youngs_modulus, wall.poisson_ratio)
+
+
+def _patch(case: Case) -> Patch | None:
+    calcification = case.calcification
+    if not isinstance(calcification, AxisymmetricCalcification | LocalCalcification):
+        return None
+    if calcification.transition != "sharp":
+        raise _refused("calcification.transition", "a smooth one", "sharp: elements have one modulus each")
+    phi = calcification.phi if isinstance(calcification, LocalCalcification) else None
+    return Patch(calcification.youngs_modulus, calcification.x, phi)
+
+
+def _outlet(case: Case, cycles: int, ramp: float) -> Outlet:
+    outlet = case.outlet
+    match outlet:
+        case ResistanceOutlet(flow="section"):
+            return Resistance(outlet.resistance, outlet.offset)
+        case ResistanceOutlet():
+            raise _refused("outlet.flow", outlet.flow, "section: the 3D outlet has one pressure")
+        case WindkesselOutlet():
+            return Windkessel(
+                outlet.proximal_resistance,
+                outlet.distal_resistance,
+                outlet.compliance,
+                outlet.venous_pressure,
+            )
+        case PressureOutlet():
+            signal = _signal(outlet.waveform, outlet.value, None)
+            return PrescribedPressure(cycles_after_ramp(signal, case.inlet.period, cycles, ramp))
+        case NonReflectingOutlet():
+            raise _refused("outlet.kind", outlet.kind, "resistance, windkessel, pressure")
+
+
+def _signal(waveform: Waveform | None, value: float | None, fourier: FourierSeries | None) -> Signal:
+    """Give the one that is stated as a function of time; waveforms by the monotone cubic (PCHIP)."""
+    if waveform is not None:
+        return PchipInterpolator(waveform.times, waveform.values)
+    if fourier is not None:
+        return partial(_fourier, fourier)
+    return partial(np.full_like, fill_value=value)
+
+
+def _fourier(series: FourierSeries, time: Floats) -> Floats:
+    harmonics = np.arange(1, len(series.cosines) + 1)
+    phase = 2.0 * np.pi / series.period * time[:, np.newaxis] * harmonics
+    waves = np.cos(phase) @ np.array(series.cosines) + np.sin(phase) @ np.array(series.sines)
+    return np.asarray(series.mean + waves)
+
+
+def _timing(period: float, ramp: float, choices: Choices) -> Timing:
+    step = period / STEPS_PER_CYCLE if choices.time_step is None else choices.time_step
+    if step > period / choices.states_per_cycle:
+        most = period / choices.states_per_cycle
+        raise _refused(
+            "time step", f"{step:g} s", f"up to {most:g} s, for {choices.states_per_cycle} states a cycle"
+        )
+    whole = (ramp + choices.cycles * period) / step
+    return Timing(
+        time_step=step,
+        n_steps=math.ceil(whole - SLACK),
+        stride=max(1, math.floor(period / choices.states_per_cycle / step + SLACK)),
+    )

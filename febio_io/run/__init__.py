@@ -1,0 +1,1 @@
+"""Running a locally installed FEBio: ``python -m febio_io.run MODEL.feb``."""

@@ -1,0 +1,152 @@
+"""The command ``python -m febio_io.run``."""
+
+import argparse
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from febio_io.errors import FebioError, FebioFileError
+from febio_io.feb.structure import Contents, read_structure
+from febio_io.log import Log, read_log
+from febio_io.run.executable import FebioRunError, find_febio
+from febio_io.run.log_tail import LogTail
+from febio_io.run.process import Finished, run_febio
+from febio_io.xplt import open_plot
+
+Watch = Callable[[LogTail], None]
+
+MOST_THREADS = 1024
+COMPLETE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command.
+
+    Returns
+    -------
+    int
+        Exit status: 0 if FEBio ended normally, 1 if it did not, 2 if it could not be run, 130 if interrupted.
+    """
+    options = _parser().parse_args(arguments)
+    signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        return _run(options)
+    except FebioError as error:
+        print(f"febio_io.run: {error}", file=sys.stderr)
+        return WRONG_INPUT
+    except KeyboardInterrupt:
+        print(
+            f"interrupted; FEBio has been ended; what it wrote is left as it is: {_results(options.model)}",
+            file=sys.stderr,
+        )
+        return INTERRUPTED
+
+
+def _interrupt(*_: object) -> None:
+    """Let a request to terminate clean up as Ctrl-C does."""
+    raise KeyboardInterrupt
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m febio_io.run",
+        description="Run FEBio 4 on a model; plot file and log are written beside it.",
+        epilog="Exit status: 0 normal termination; 1 FEBio failed; 2 it could not be run.",
+    )
+    parser.add_argument("model", type=Path, metavar="MODEL.feb", help="the model")
+    parser.add_argument("--febio", metavar="PATH", help="the program (default: $FEBIO, else febio4 on PATH)")
+    parser.add_argument(
+        "--threads", type=int, metavar="N", help="threads it may use (default: its own choice)"
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="replace the plot file and log of an earlier run"
+    )
+    return parser
+
+
+def _run(options: argparse.Namespace) -> int:
+    model: Path = options.model
+    if options.threads is not None and not 1 <= options.threads <= MOST_THREADS:
+        raise FebioRunError(f"--threads {options.threads}: allowed: 1 to {MOST_THREADS}")
+    febio = find_febio(options.febio)
+    contents = read_structure(model)
+    earlier = [path for path in (model.with_suffix(".xplt"), model.with_suffix(".log")) if path.exists()]
+    if earlier and not options.force:
+        raise FebioRunError(f"{earlier[0]} exists; --force runs the model again and replaces it")
+    for path in earlier:
+        path.unlink()
+    begin = time.perf_counter()
+    with _shown(model, contents) as watch:
+        finished = run_febio(febio, model.absolute(), options.threads, watch)
+    problem = _problem(model, finished)
+    if problem is not None:
+        print(f"febio_io.run: {problem}", file=sys.stderr)
+        return FAILED
+    log = read_log(model.with_suffix(".log"))
+    print(
+        f"normal termination: {log.n_converged} time steps, {log.n_iterations} iterations, "
+        f"{log.n_retries} retries, {time.perf_counter() - begin:.1f} s; wrote {_results(model)}"
+    )
+    return COMPLETE
+
+
+def _results(model: Path) -> str:
+    found = [str(path) for path in (model.with_suffix(".xplt"), model.with_suffix(".log")) if path.exists()]
+    return ", ".join(found) or "nothing yet"
+
+
+def _problem(model: Path, finished: Finished) -> str | None:
+    """Say what went wrong; the log decides, not the exit status alone."""
+    path = model.with_suffix(".log")
+    words = f": {finished.last_words.splitlines()[-1].strip()}" if finished.last_words else ""
+    if not path.is_file():
+        return f"FEBio ended with status {finished.status} and wrote no log{words}"
+    try:
+        log = read_log(path)
+    except FebioFileError as error:
+        return f"FEBio ended with status {finished.status}: {error}"
+    if log.termination == "error":
+        return f"{path}: FEBio ended with an error{_last_error(log)}"
+    if log.termination == "none":
+        how = f"was ended by signal {-finished.status}" if finished.status < 0 else "stopped"
+        return f"{path}: FEBio {how} after {log.n_converged} time steps, unfinished{_last_error(log)}"
+    if finished.status != 0:
+        return f"{path}: FEBio ended normally, but with status {finished.status}{words}"
+    plot = model.with_suffix(".xplt")
+    if not plot.is_file():
+        return f"{path}: FEBio ended normally, but {plot.name} is missing"
+    with open_plot(plot) as opened:
+        return f"{plot}: {opened.warnings[0]}" if opened.warnings else None
+
+
+def _last_error(log: Log) -> str:
+    return f": {log.errors[-1].text} (line {log.errors[-1].line})" if log.errors else ""
+
+
+@contextmanager
+def _shown(model: Path, contents: Contents) -> Iterator[Watch]:
+    """Show how far the run is, if there is a terminal to show it on."""
+    console = Console(stderr=True)
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn(
+            "{task.completed:.4g} of {task.total:.4g} s, step {task.fields[steps]}{task.fields[retries]}"
+        ),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+        task = progress.add_task(model.name, total=contents.end, steps=0, retries="")
+
+        def watch(tail: LogTail) -> None:
+            retries = f", {tail.retries} retries" if tail.retries else ""
+            progress.update(task, completed=tail.time, steps=tail.steps, retries=retries)
+
+        yield watch
