@@ -28,15 +28,16 @@ def check_folder(path: Path) -> None:
 def write_netcdf(dataset: xr.Dataset, path: Path, unlimited: tuple[str, ...] = ()) -> None:
     """Write ``dataset`` to ``path``, replacing an older file only by a complete new one.
 
+    Nothing is compressed: that would halve the file and take longer than the run.
+
     Raises
     ------
     SolverError
         If the file cannot be written.
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    encoding = {name: {"zlib": True, "complevel": 1, "shuffle": True} for name in dataset.data_vars}
     try:
-        dataset.to_netcdf(partial, engine="netcdf4", encoding=encoding, unlimited_dims=unlimited)
+        dataset.to_netcdf(partial, engine="netcdf4", unlimited_dims=unlimited)
         partial.replace(path)
     except (OSError, RuntimeError) as error:  # netCDF reports a full disk as RuntimeError
         raise SolverError(

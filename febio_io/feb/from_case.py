@@ -125,7 +125,7 @@ def _refused(key: str, found: str, allowed: str) -> FebioModelError:
 
 
 def _frame(reference: Reference | None) -> Frame:
-    """Frame of the run that the reference will be; the model is whole, along an axis of its frame, in SI units."""
+    """Frame of the run to be: the model is whole, along an axis of its frame, in SI units."""
     if not isinstance(reference, FebioReference):
         return Frame()
     axis, phi_zero = reference.axis, reference.phi_zero
