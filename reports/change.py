@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cases.fields import FIELDS, Field
+from reports import change_apart
 from reports.blocks import Block, Column, Paragraph, Section, Subsection, Table
 from reports.cells import cell_tables
 from reports.load import Comparison
@@ -251,6 +252,9 @@ def section(comparison: Comparison) -> Section:
         blocks.append(
             Paragraph(f"Times are counted from the start of the cycle and are those of 3D states: {times}.")
         )
+    apart = change_apart.table(comparison, _changed(comparison)) if comparison.baseline else None
+    if apart:
+        blocks.append(apart)
     cycle = _cycle_table(comparison)
     if cycle:
         blocks.append(Subsection("whole-cycle", "Over the whole cycle", (cycle,)))

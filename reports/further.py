@@ -7,6 +7,7 @@ from reports.numbers import ABSENT, DIFFERENCE_UNITS, percent, rounded, signed, 
 from reports.words import STATISTICS, field_of, place, quantity_words, statistic_words
 
 _BY_CELL_AND_STATE = ("plane_integral", "prescribed_inflow")
+_PLACED = ("bias_low", "bias_high", "change_rms", "cost")  # statistics that have tables of their own
 
 
 def table(comparison: Comparison, placed: frozenset[str]) -> Table | None:
@@ -16,7 +17,7 @@ def table(comparison: Comparison, placed: frozenset[str]) -> Table | None:
         for row in comparison.metrics.rows
         if not row.status
         and (row.statistic not in STATISTICS or row.statistic in DIFFERENCE_STATISTICS)
-        and row.statistic not in _BY_CELL_AND_STATE
+        and row.statistic not in (*_BY_CELL_AND_STATE, *_PLACED)
         and (row.statistic != "largest" or row.quantity not in placed)
         and (row.i is None or row.statistic.startswith(("largest", "max_")))
     )

@@ -23,7 +23,8 @@ def table(comparison: Comparison) -> Table | None:
             if name == variant:
                 largest = by.get("max_error")
                 where = place(largest) if largest else ABSENT
-                lines.setdefault((variant, *_figures(by)), []).append((quantity_words(quantity), where))
+                figures = _figures(by, _interval(comparison, variant, quantity))
+                lines.setdefault((variant, *figures), []).append((quantity_words(quantity), where))
     rows = tuple(
         (variant, "; ".join(words for words, _ in same), *figures, same[0][1])
         for (variant, *figures), same in lines.items()
@@ -32,11 +33,14 @@ def table(comparison: Comparison) -> Table | None:
         "pooled",
         "Errors over all cells and all states of the cycle. A bias near the RMS error means that the 2D "
         "model is off by the same share everywhere; a scatter near it, that it is off differently from place "
-        "to place. Quantities whose figures agree share a line.",
+        "to place. The 95 % interval of the bias comes from blocks of the cycle drawn anew (bootstrap): "
+        "it tells how sure the bias is, not how large errors are. "
+        "Quantities whose figures agree share a line.",
         (
             Column("variant"),
             Column("quantity", "prose"),
             Column("bias", "number"),
+            Column("95 % of the bias", "number"),
             Column("scatter", "number"),
             Column("RMS error", "number"),
             Column("largest error", "number"),
@@ -47,7 +51,15 @@ def table(comparison: Comparison) -> Table | None:
     )
 
 
-def _figures(by: dict[str, Row]) -> tuple[str, ...]:
-    """Bias, scatter, RMS and largest error as text."""
+def _figures(by: dict[str, Row], interval: str) -> tuple[str, ...]:
+    """Bias and its interval, scatter, RMS and largest error as text."""
     texts = [percent(by[name].error if name in by else None) for name in _STATISTICS]
-    return texts[0], unsigned(texts[1]), unsigned(texts[2]), texts[3]
+    return texts[0], interval, unsigned(texts[1]), unsigned(texts[2]), texts[3]
+
+
+def _interval(comparison: Comparison, variant: str, quantity: str) -> str:
+    """Confidence limits of a bias as text."""
+    low, high = (comparison.metrics.find(variant, quantity, name) for name in ("bias_low", "bias_high"))
+    if low is None or high is None:
+        return ABSENT
+    return f"{percent(low.error)} … {percent(high.error)}"

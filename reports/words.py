@@ -22,6 +22,10 @@ STATISTICS = {
     "change": "change by calcification",
     "ratio": "ratio to the baseline",
 }
+_RARE = {
+    "curved_rms_error": "RMS error against 3D with the section's edge taken round",
+    "worst_cell": "RMS error of the worst cell",
+}
 UNSIGNED_STATISTICS = ("rms_error", "scatter")
 
 
@@ -39,7 +43,7 @@ def quantity_words(quantity: str) -> str:
 
 def statistic_words(statistic: str) -> str:
     """E.g. "RMS error"."""
-    return STATISTICS.get(statistic, statistic.replace("_", " "))
+    return STATISTICS.get(statistic) or _RARE.get(statistic, statistic.replace("_", " "))
 
 
 def measure(row: Row, value: float | None, decimals: int = 2) -> str:

@@ -1,0 +1,52 @@
+"""How sure a bias is, and how far apart the changes by calcification are, as a reader sees them."""
+
+from types import SimpleNamespace
+
+from reports import change_apart, further, pooled
+from reports.metrics import Metrics, Row
+
+
+def row(statistic, error, rom=None, reference=None, variant="local"):
+    return Row("case", variant, "radius", statistic, None, None, None, rom, reference, error, "m", None, "")
+
+
+def comparison(*rows):
+    index = {(r.variant, r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in rows}
+    return SimpleNamespace(metrics=Metrics(rows, index), variants=("none", "local"), baseline="none")
+
+
+def plain(line):
+    return [text.replace("\u202f", " ").replace("\u00a0", " ") for text in line]
+
+
+def test_a_bias_stands_beside_its_interval():
+    rows = (row("bias", 0.0078), row("scatter", 0.02), row("bias_low", 0.0074), row("bias_high", 0.0083))
+    table = pooled.table(comparison(*rows))
+    assert plain(table.rows[0]) == [
+        "local",
+        "lumen radius",
+        "+0.78 %",
+        "+0.74 % … +0.83 %",
+        "2.00 %",
+        "—",
+        "—",
+        "—",
+    ]
+    assert further.table(comparison(*rows), frozenset()) is None
+
+
+def test_a_bias_without_an_interval_says_so():
+    table = pooled.table(comparison(row("bias", 0.0078)))
+    assert plain(table.rows[0])[3] == "—"
+
+
+def test_changes_are_shown_with_their_sizes_and_distance():
+    apart = row("change_rms", 0.869, rom=75.0e-6, reference=64.1e-6)
+    table = change_apart.table(comparison(apart, row("change_rms", 0.0, variant="none")), ("local",))
+    assert [plain(line) for line in table.rows] == [
+        ["local", "lumen radius", "0.0641 mm", "0.0750 mm", "87 %"]
+    ]
+
+
+def test_without_changes_there_is_no_table():
+    assert change_apart.table(comparison(row("bias", 0.1)), ("local",)) is None
