@@ -37,6 +37,12 @@ class View:
     seen_from: float
 
 
+def has_shape(comparison: Comparison) -> bool:
+    """Whether both models have a radius in every cell of every state."""
+    radii = (comparison.fields[f"{model}_radius"].values for model in ("reference", "rom"))
+    return all(bool(np.isfinite(values).all()) for values in radii)
+
+
 def view(comparison: Comparison) -> View:
     """Choose the view from the radii of the whole cycle and the calcified cells."""
     radii = np.stack([comparison.fields[f"{model}_radius"].values for model in ("reference", "rom")])
@@ -104,6 +110,9 @@ def section(comparison: Comparison) -> Section:
     title = "3D view"
     if not comparison.times:
         return Section("artery", title, (Paragraph("The case names no instant to show the artery at."),))
+    if not has_shape(comparison):
+        told = "The reference does not state the radius of all cells, so there is no 3D artery to show."
+        return Section("artery", title, (Paragraph(told),))
     name, t_s = comparison.times[0]
     state = comparison.states[0]
     seen = view(comparison)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from cases.fields import FIELDS, Field
-from reports.artery import view
+from reports.artery import has_shape, view
 from reports.load import Comparison
 from reports.metrics import DIFFERENCE_STATISTICS, Metrics, Row
 from reports.numbers import DIFFERENCE_UNITS
@@ -20,7 +20,7 @@ LARGEST_EXPONENT = 100.0  # beyond, a profile is flat to the eye, and one such v
 
 def page_data(comparison: Comparison) -> str:
     """Return the JSON that the page's scripts read; display units throughout."""
-    data, seen = comparison.fields, view(comparison)
+    data = comparison.fields
     content = {
         "variants": comparison.variants,
         "time": _digits(data["time"].values),
@@ -38,14 +38,21 @@ def page_data(comparison: Comparison) -> str:
         ],
         "fields": {name: _both(comparison, FIELDS[name], data) for name in (*ON_CELLS, "section_flow_rate")},
         "profiles": _both(comparison, FIELDS["axial_velocity"], comparison.profiles),
-        "artery": {
-            "rest_radius": 1e3 * seen.rest_radius,
-            "exaggeration": seen.exaggeration,
-            "seen_from": float(np.degrees(seen.seen_from)),
-        },
+        "artery": _artery(comparison),
         "metrics": _metrics(comparison.metrics),
     }
     return json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+def _artery(comparison: Comparison) -> dict[str, float] | None:
+    if not has_shape(comparison):
+        return None
+    seen = view(comparison)
+    return {
+        "rest_radius": 1e3 * seen.rest_radius,
+        "exaggeration": seen.exaggeration,
+        "seen_from": float(np.degrees(seen.seen_from)),
+    }
 
 
 def _digits(values: Array) -> list[float]:
