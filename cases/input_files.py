@@ -1,6 +1,7 @@
 """Where the files that a case names are found, and how they are read."""
 
 import stat
+from collections.abc import Callable
 from pathlib import Path
 
 from cases.errors import UnreadableFileError
@@ -21,14 +22,8 @@ def find_file(name: str, folder: Path) -> Path | None:
     pathlib.Path or None
         The absolute path, or None where no folder has such a file.
     """
-    for start in (folder, *folder.parents):
-        candidate = start / name
-        try:
-            if candidate.is_file():
-                return candidate.resolve()
-        except OSError:  # a name too long, a folder that may not be read: not found there
-            continue
-    return None
+    found = _nearest(name, folder, Path.is_file)
+    return None if found is None else found.resolve()
 
 
 def place_for(name: str, folder: Path) -> Path:
@@ -46,14 +41,19 @@ def place_for(name: str, folder: Path) -> Path:
     pathlib.Path
         An absolute path: in that folder, or else in the nearest folder above, where its own folder exists.
     """
+    return _nearest(name, folder, lambda candidate: candidate.parent.is_dir()) or folder / name
+
+
+def _nearest(name: str, folder: Path, fits: Callable[[Path], bool]) -> Path | None:
+    """First path that fits, in a folder or those above it."""
     for start in (folder, *folder.parents):
         candidate = start / name
         try:
-            if candidate.parent.is_dir():
+            if fits(candidate):
                 return candidate
-        except OSError:
+        except OSError:  # a name too long, a folder that may not be read: not found there
             continue
-    return folder / name
+    return None
 
 
 def read_file(path: Path, largest: int) -> bytes:

@@ -3,21 +3,17 @@
 import os
 import sys
 
-from febio_io.interrupts import interrupts_deferred
+from febio_io.interrupts import run_command
 
 
 def run() -> int:
-    """Run the command; a Ctrl-C ends it quietly, even one that comes while it is still being imported."""
+    """Run the command; a Ctrl-C ends it quietly, and so does a pipe that its reader has closed."""
     try:
-        with interrupts_deferred():
-            from febio_io.command import main
-        return main()
+        return run_command("febio_io.command")
     except BrokenPipeError:
         # The reader of a pipe has seen enough; nothing may be flushed into it at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
-    except KeyboardInterrupt:
-        return 130
 
 
 if __name__ == "__main__":

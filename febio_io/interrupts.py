@@ -4,7 +4,10 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from types import FrameType
+
+INTERRUPTED = 130  # exit status
 
 
 @contextmanager
@@ -45,3 +48,16 @@ def interrupts_deferred() -> Iterator[None]:
         yield
     if count:
         signal.raise_signal(signal.SIGINT)
+
+
+def run_command(module: str) -> int:
+    """Import a command's module and run its ``main``; exit status.
+
+    A Ctrl-C ends it quietly, even one that comes while it is still being imported.
+    """
+    try:
+        with interrupts_deferred():
+            command = import_module(module)
+        return int(command.main())
+    except KeyboardInterrupt:
+        return INTERRUPTED

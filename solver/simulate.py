@@ -12,7 +12,8 @@ from solver.diagnostics import Columns, Diagnostics, Limits, Monitor, by_name
 from solver.errors import ModelError, NotConverged, RunFailure
 from solver.model import Model, State
 from solver.steady import steady_state
-from solver.stepping import AnyStepper, stepper_of
+from solver.stepper import Stepper
+from solver.stepping import stepper_of
 
 SHORTEST_SHARE = 1e-6  # of the largest Δt: below it error control gives up
 SLOWEST_GROWTH, FASTEST_GROWTH = 0.2, 2.0  # of Δt from one step to the next
@@ -149,7 +150,7 @@ def snapshots(
 
 
 def _adaptive(
-    stepper: AnyStepper, begin: float, end: float, largest: float, wanted: float, tolerance: float
+    stepper: Stepper, begin: float, end: float, largest: float, wanted: float, tolerance: float
 ) -> tuple[float, float, float]:
     """Go from begin to end with the local error of each step below ``tolerance``.
 
@@ -196,7 +197,7 @@ def _adaptive(
     return total, longest, min(wanted, largest)
 
 
-def _doubled(stepper: AnyStepper, time: float, step: float) -> tuple[float, float]:
+def _doubled(stepper: Stepper, time: float, step: float) -> tuple[float, float]:
     """Take two steps of Δt/2; mass defect, and the error estimated by comparison with one of Δt.
 
     The scheme is of second order, so a third of their difference estimates the error of the finer one.

@@ -1,6 +1,7 @@
 """A state in the kernels' arrays, and what moves it."""
 
-from typing import TypedDict
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,6 +40,14 @@ CELL_FAILURES = (layout.NO_ADMISSIBLE_PROFILE, layout.WALL_COLLAPSE, layout.BEYO
 Floats = NDArray[np.float64]
 
 
+class Kernel(NamedTuple):
+    """A scheme's kernel, and the parameters and the workspace that it is called with."""
+
+    advance: Callable[..., tuple[int, int, int, int, int]]
+    parameters: Any
+    workspace: Any
+
+
 class Stepper:
     """A model, its state and the workspace of the kernels.
 
@@ -49,6 +58,8 @@ class Stepper:
         s.
     steps, sweeps : int
         Steps taken so far, and sweeps of their iterations in all.
+    tolerance : float
+        Relative error of P and Q at which a step's iteration ends.
     """
 
     def __init__(self, model: Model, state: State) -> None:
@@ -56,9 +67,18 @@ class Stepper:
         self.time = state.time
         self.steps = 0
         self.sweeps = 0
-        self._parameters = parameters(model)
-        self._workspace = layout.workspace(model.grid.n_x, model.grid.n_phi)
-        self._fields = fields_of(model, state)
+        self.tolerance = TOLERANCE
+        self._kernel = self._prepared()
+        self._fields = self._fields_of(state)
+
+    def _prepared(self) -> Kernel:
+        """Bind the scheme's kernel to the model's parameters and a workspace of its own."""
+        grid = self.model.grid
+        return Kernel(advance, parameters(self.model), layout.workspace(grid.n_x, grid.n_phi))
+
+    def _fields_of(self, state: State) -> Any:
+        """Arrays of the kernel from a state."""
+        return fields_of(self.model, state)
 
     def state(self) -> State:
         """Return an independent copy of the state."""
@@ -75,7 +95,7 @@ class Stepper:
 
     def restore(self, state: State) -> None:
         """Go back to a state."""
-        self._fields = fields_of(self.model, state)
+        self._fields = self._fields_of(state)
         self.time = state.time
 
     def advance_through(self, begin: float, time_step: float, count: int, theta: float) -> float:
@@ -104,11 +124,12 @@ class Stepper:
         values = np.ascontiguousarray(inlet_values, dtype=float)
         if outlet_offsets is None:
             outlet_offsets = offsets(self.model, self.time + time_step * np.arange(1, values.size + 1))
-        stepping = layout.Stepping(float(time_step), float(theta), TOLERANCE, MAX_SWEEPS)
+        stepping = layout.Stepping(float(time_step), float(theta), self.tolerance, MAX_SWEEPS)
         before = lumen_volume(self.model, self._fields.area)
-        self._workspace.exchanged[:] = 0.0
-        status, i, j, steps, sweeps = advance(
-            self._parameters, stepping, self._workspace, self._fields, values, outlet_offsets
+        kernel = self._kernel
+        kernel.workspace.exchanged[:] = 0.0
+        status, i, j, steps, sweeps = kernel.advance(
+            kernel.parameters, stepping, kernel.workspace, self._fields, values, outlet_offsets
         )
         self.time += steps * time_step
         self.steps += steps
@@ -118,7 +139,7 @@ class Stepper:
         if not (np.all(np.isfinite(self._fields.area)) and np.all(np.isfinite(self._fields.flow))):
             raise NotFinite(self.time, 0, 0)
         change = lumen_volume(self.model, self._fields.area) - before
-        return mass_defect(self.model, self._workspace.exchanged, change, time_step)
+        return mass_defect(self.model, kernel.workspace.exchanged, change, time_step)
 
 
 def failure(status: int, time: float, i: int, j: int) -> RunFailure:

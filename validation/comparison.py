@@ -59,11 +59,6 @@ def _source(case: Case) -> tuple[str, str]:
     return reference.kind, reference.simulation if isinstance(reference, TablesReference) else ""
 
 
-def _is_sparse(case: Case) -> bool:
-    """Whether the reference states values at some cells only, and NaN elsewhere."""
-    return isinstance(case.reference, TablesReference)
-
-
 def baseline_of(file: CaseFile) -> str:
     """Name of the first variant without calcification, or "" if there is none."""
     return next(iter(baselines_of(file).values()), "")

@@ -2,18 +2,7 @@
 
 import sys
 
-from febio_io.interrupts import interrupts_deferred
-
-
-def run() -> int:
-    """Run the command; a Ctrl-C ends it quietly, even one that comes while it is still being imported."""
-    try:
-        with interrupts_deferred():
-            from febio_io.feb.command import main
-        return main()
-    except KeyboardInterrupt:
-        return 130
-
+from febio_io.interrupts import run_command
 
 if __name__ == "__main__":
-    sys.exit(run())
+    sys.exit(run_command("febio_io.feb.command"))
