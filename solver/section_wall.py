@@ -123,7 +123,7 @@ class SectionWall:
         return knot, position - knot
 
     def _cubic(self, table: Floats, knot: NDArray[np.int64]) -> tuple[Floats, Floats, Floats, Floats]:
-        """Coefficients of A between knots, of a table (n_x, knots, 2, …), in powers of the share of a step."""
+        """Coefficients of A between knots, of a table (n_x, knots, 2, …), in powers of a step's share."""
         i = np.arange(knot.size)
         a0, d0 = table[i, knot, 0], table[i, knot, 1] * self.step
         a1, d1 = table[i, knot + 1, 0], table[i, knot + 1, 1] * self.step
