@@ -63,18 +63,18 @@ def _of_cycle(name: str) -> Measure:
 
 
 def _patch_section(case: Case, last: xr.Dataset) -> int:
-    """Section nearest to the calcification's centre; to mid-length without a calcification."""
-    calcification = case.calcification
-    ends = (0.0, case.geometry.length) if isinstance(calcification, NoCalcification) else calcification.x
+    """Section nearest to the centre of the calcification, of several the first; mid-length without one."""
+    parts = case.calcification.parts
+    ends = parts[0].x if parts else (0.0, case.geometry.length)
     return int(np.argmin(np.abs(last["x"].to_numpy() - 0.5 * (ends[0] + ends[1]))))
 
 
 def _patch_row(case: Case, last: xr.Dataset) -> int:
-    """Row nearest to a patch's centre; the first one of a ring, whose rows are alike."""
-    calcification = case.calcification
-    if not isinstance(calcification, LocalCalcification):
+    """Row nearest to the centre of the calcification; the first one of a ring, whose rows are alike."""
+    part = next(iter(case.calcification.parts), None)
+    if not isinstance(part, LocalCalcification):
         return 0
-    first, end = calcification.phi
+    first, end = part.phi
     centre = first + 0.5 * ((end - first) % (2.0 * np.pi))
     apart = np.exp(1j * last["phi"].to_numpy()) - np.exp(1j * centre)
     return int(np.argmin(np.abs(apart)))

@@ -1,6 +1,6 @@
 """Samples of a study: the points of its design, each checked as a case of its own."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from cases.schema import Case
 from cases.template import case_with
 from cases.yaml_nodes import Scalar
 from validation.sweep.design import points
-from validation.sweep.spans import CENTRE, EXTENT, ends_for
+from validation.sweep.spans import CENTRE, EXTENT, ends_of
 from validation.sweep.study import Study
 
 Floats = NDArray[np.float64]
@@ -106,24 +106,11 @@ def _spread(samples: Samples) -> Iterator[Sample]:
 
 def _stated(case: Case, keys: Sequence[NumericKey], values: Sequence[float]) -> dict[Keys, Scalar]:
     """Return values as the case file would state them, by the keys that lead there."""
-    stated: dict[Keys, Scalar] = {}
-    spans: dict[str, dict[str, float]] = {}
-    for key, value in zip(keys, values, strict=True):
-        section, axis, part = (*key.path, "", "")[:3]
-        if section == "calcification" and part in (CENTRE, EXTENT):
-            spans.setdefault(str(axis), {})[str(part)] = value
-        else:
-            stated[key.path] = _text(key, value)
-    return stated | _ends(case, spans)
-
-
-def _ends(case: Case, spans: Mapping[str, dict[str, float]]) -> dict[Keys, Scalar]:
-    units = {"x": "m", "phi": "rad"}
-    return {
-        ("calcification", axis, place): f"{end!r} {units[axis]}"
-        for axis, parts in spans.items()
-        for place, end in enumerate(ends_for(case, axis, parts))
-    }
+    pairs = list(zip(keys, values, strict=True))
+    spans = {key.path: value for key, value in pairs if key.path[-1] in (CENTRE, EXTENT)}
+    return {key.path: _text(key, value) for key, value in pairs if key.path not in spans} | ends_of(
+        case, spans
+    )
 
 
 def _text(key: NumericKey, value: float) -> Scalar:
