@@ -1,6 +1,6 @@
 """Chunks of samples through a scheduler: a bounded number at a time, each result as soon as it is there."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TypeAlias, TypeVar
 
 from distributed import Client, Future, KilledWorker, as_completed
@@ -13,10 +13,13 @@ IN_FLIGHT = 3  # chunks for each thread of the workers: what is computed, and wh
 Chunk = tuple[int, list[Sample]]
 Records: TypeAlias = "Future[list[Record]]"
 SamePlan: TypeAlias = "Future[Plan]"
+Run = Callable[[list[Sample], Plan], list[Record]]
 T = TypeVar("T")
 
 
-def computed(client: Client, chunks: Iterable[Chunk], plan: Plan) -> Iterator[tuple[int, list[Record]]]:
+def computed(
+    client: Client, chunks: Iterable[Chunk], plan: Plan, run: Run = run_chunk
+) -> Iterator[tuple[int, list[Record]]]:
     """Yield the records of each chunk with its number, in the order in which they are finished.
 
     A task whose worker dies is repeated; where workers die again and again its samples are run one by one,
@@ -29,18 +32,23 @@ def computed(client: Client, chunks: Iterable[Chunk], plan: Plan) -> Iterator[tu
     """
     kept = client.submit(_itself, plan, pure=False)  # a task, so that it is made again if its worker dies
     waiting = iter(chunks)
-    running: dict[object, tuple[Records, Chunk]] = {}
+    running: dict[object, Chunk] = {}
     finished = as_completed(loop=client.loop)
-    bound = IN_FLIGHT * max(1, sum(client.nthreads().values()))
-    for chunk in _first(waiting, bound):
-        finished.add(_submitted(client, chunk, kept, running))
+
+    def begin(chunk: Chunk) -> None:
+        future = client.submit(run, chunk[1], kept, pure=False)
+        running[future.key] = chunk
+        finished.add(future)
+
+    for chunk in _first(waiting, IN_FLIGHT * max(1, sum(client.nthreads().values()))):
+        begin(chunk)
     for future in finished:
-        _, (number, samples) = running.pop(future.key)
-        records = _records(client, future, samples, plan, kept)
+        number, samples = running.pop(future.key)
+        records = _records(client, future, samples, plan, kept, run)
         del future  # and with it what the workers keep of it
         yield number, records
         for chunk in _first(waiting, 1):
-            finished.add(_submitted(client, chunk, kept, running))
+            begin(chunk)
 
 
 def _first(items: Iterator[T], count: int) -> Iterator[T]:
@@ -48,16 +56,8 @@ def _first(items: Iterator[T], count: int) -> Iterator[T]:
         yield item
 
 
-def _submitted(
-    client: Client, chunk: Chunk, plan: SamePlan, running: dict[object, tuple[Records, Chunk]]
-) -> Records:
-    future = client.submit(run_chunk, chunk[1], plan, pure=False)
-    running[future.key] = (future, chunk)
-    return future
-
-
 def _records(
-    client: Client, future: Records, samples: list[Sample], plan: Plan, kept: SamePlan
+    client: Client, future: Records, samples: list[Sample], plan: Plan, kept: SamePlan, run: Run
 ) -> list[Record]:
     """Return the records of a finished chunk; of one that cannot be run whole, sample by sample."""
     if future.status == "finished":
@@ -66,11 +66,12 @@ def _records(
         raise ValidationError("the scheduler was lost; what is done is kept, and the same command goes on")
     if len(samples) == 1:
         return [failed(samples[0], plan, _words(future.exception()))]
-    alone = [client.submit(run_chunk, [sample], kept, pure=False) for sample in samples]
     return [
         record
-        for sample, one in zip(samples, alone, strict=True)
-        for record in _records(client, _done(one), [sample], plan, kept)
+        for sample in samples
+        for record in _records(
+            client, _done(client.submit(run, [sample], kept, pure=False)), [sample], plan, kept, run
+        )
     ]
 
 
