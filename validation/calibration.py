@@ -19,7 +19,7 @@ from validation.errors import ValidationError
 
 DIFFERENCE = 1e-3  # of a parameter's range: half the interval of the central differences
 MOST_EVALUATIONS = 60
-TOLERANCE = 1e-9
+TOLERANCE = 1e-8
 AT_LIMIT = 1e-5  # share of its range within which a parameter lies on its limit
 REACHED = 1e-3  # of a target's value: farther off, it is not attained
 DETERMINED = 1e-4  # of the largest singular value: a direction below it is not seen by the targets
@@ -58,13 +58,13 @@ class Fit:
 
 
 class _Runs:
-    """Runs of a case at points of the unit cube; counts them."""
+    """Runs of a case at points of the unit cube: each is run once."""
 
     def __init__(self, calibration: Calibration, wanted: Observed, watched: Callable[[int], None]) -> None:
         self.calibration, self.wanted, self.watched = calibration, wanted, watched
         self.low = np.array([parameter.low for parameter in calibration.parameters])
         self.width = np.array([parameter.high for parameter in calibration.parameters]) - self.low
-        self.count = self.failed = 0
+        self.known: dict[bytes, Floats] = {}
         self.last_error: CaseError | SolverError | None = None
 
     def values(self, point: Floats) -> Floats:
@@ -79,21 +79,18 @@ class _Runs:
             return None
 
     def attained(self, points: Sequence[Floats]) -> list[Floats]:
-        """Run the case at points, side by side, and return what it attains; NaN where it fails."""
-        cases = [self._case(point) for point in points]
-        able = [case for case in cases if case is not None]
-        outcomes = iter(run_batch(able, self.wanted.times, self.wanted.measure))
-        found = []
-        for case in cases:
-            outcome = None if case is None else next(outcomes)
-            if outcome is not None and outcome.error is not None:
-                self.last_error = outcome.error
-            kept = None if outcome is None else outcome.kept
-            self.failed += kept is None
-            found.append(np.full(self.wanted.values.size, np.nan) if kept is None else kept)
-        self.count += len(points)
-        self.watched(self.count)
-        return found
+        """Return what the case attains at points, NaN where it fails; new points are run side by side."""
+        new = {point.tobytes(): point for point in points if point.tobytes() not in self.known}
+        cases = {name: self._case(point) for name, point in new.items()}
+        able = {name: case for name, case in cases.items() if case is not None}
+        outcomes = run_batch(list(able.values()), self.wanted.times, self.wanted.measure)
+        self.known |= dict.fromkeys(new, np.full(self.wanted.values.size, np.nan))
+        for name, outcome in zip(able, outcomes, strict=True):
+            if outcome.kept is not None:
+                self.known[name] = outcome.kept
+            self.last_error = outcome.error or self.last_error
+        self.watched(len(self.known))
+        return [self.known[point.tobytes()] for point in points]
 
     def residuals(self, point: Floats) -> Floats:
         (attained,) = self.attained([point])
@@ -117,7 +114,7 @@ class _Runs:
             columns.append((high - low) / self.wanted.scales / (end - begin) if end > begin else at * np.nan)
         jacobian = np.stack(columns, axis=1)
         if not np.all(np.isfinite(jacobian)):
-            raise ValidationError(f"{self.calibration.path}: {self._where(point)}: {self.last_error}")
+            raise ValidationError(f"{self.calibration.path}: at {self._where(point)}: {self.last_error}")
         return jacobian
 
     def _where(self, point: Floats) -> str:
@@ -126,7 +123,7 @@ class _Runs:
 
 
 def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], None]) -> Fit:
-    """Fit the parameters of a calibration by least squares (trust region within their limits).
+    """Fit the parameters of a calibration by least squares: Gauss–Newton steps within their limits.
 
     Parameters
     ----------
@@ -154,10 +151,11 @@ def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], Non
     if not np.all(np.isfinite(runs.residuals(begin))):
         raise ValidationError(f"{calibration.path}: the run from which the search begins: {runs.last_error}")
     _require_determined(calibration, runs.jacobian(np.clip(begin, AT_LIMIT, 1 - AT_LIMIT)))
-    found = least_squares(
+    found = least_squares(  # runs that fail count as steps too long
         runs.residuals,
         begin,
         jac=runs.jacobian,
+        method="dogbox",
         bounds=(0.0, 1.0),
         xtol=TOLERANCE,
         ftol=TOLERANCE,
@@ -182,8 +180,8 @@ def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], Non
         correlation=covariance / np.outer(spread, spread),
         condition=float(singular[0] / singular[-1]),
         attained=attained,
-        runs=runs.count,
-        failed=runs.failed,
+        runs=len(runs.known),
+        failed=sum(not np.all(np.isfinite(attained)) for attained in runs.known.values()),
     )
 
 
