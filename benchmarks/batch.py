@@ -2,8 +2,9 @@
 
     python benchmarks/batch.py [--cases 1000] [--output benchmarks/batch.json]
 
-Every case has another local calcification, viscosity and outlet. A case's cost in the batch holds all that it
-takes: checking its values, its wall, its steady start, the run and the few numbers kept. Costs are processor
+Every case has another local calcification, viscosity and outlet. Three batches: patches anywhere, of which all
+rows are computed; patches symmetric about φ = 180 deg, of which one half is; and rings, of which one row is.
+A case's cost in the batch holds all that it takes: checking its values, its wall, its steady start, the run and the few numbers kept. Costs are processor
 seconds, so that other work on the machine counts little; ratios are of one and the same run of this script.
 """
 
@@ -27,7 +28,7 @@ from cases.calibration_file import changed_values
 from cases.case_file import load_case_file
 from cases.numeric_keys import numeric_keys
 from cases.schema import Case
-from cases.template import Template, case_with, load_template
+from cases.template import case_with, load_template
 from solver.batch import run_batch
 from solver.case_run import run_case
 from solver.model import Model
@@ -38,20 +39,19 @@ from validation.provenance import provenance
 ROOT = Path(__file__).parents[1]
 CASE = ROOT / "benchmarks" / "thesis.yaml"
 INSTANTS = 40  # saved states of the cycle
+FEW = 100  # cases, where ratios are wanted
 SINGLE_RUNS, COMMANDS = 10, 3  # at most: no more than there are cases
-# Latin hypercube over: E and ends of the patch, viscosity, resistance and offset of the outlet
-KEYS = (
-    "calcification.youngs_modulus",
-    "calcification.x[1]",
-    "calcification.x[2]",
-    "calcification.phi[1]",
-    "calcification.phi[2]",
-    "blood.viscosity",
-    "outlet.resistance",
-    "outlet.offset",
-)
-LOW = (1e6, 2e-3, 8e-3, 1.6, 3.3, 0.003, 4e9, 6e3)
-HIGH = (2e7, 7e-3, 13e-3, 3.1, 4.8, 0.005, 7e9, 9e3)
+# Latin hypercube over E and place of the patch, viscosity, resistance and offset of the outlet; SI
+KEYS = {
+    "calcification.youngs_modulus": (1e6, 2e7),
+    "calcification.x[1]": (2e-3, 7e-3),
+    "calcification.x[2]": (8e-3, 13e-3),
+    "blood.viscosity": (0.003, 0.005),
+    "outlet.resistance": (4e9, 7e9),
+    "outlet.offset": (6e3, 9e3),
+}
+ANGLES = {"calcification.phi[1]": (1.6, 3.1), "calcification.phi[2]": (3.3, 4.8)}
+KINDS = {"anywhere": ("local", KEYS | ANGLES), "symmetric": ("local", KEYS), "rings": ("axisymmetric", KEYS)}
 
 
 def one_cycle(path: Path, folder: Path) -> Path:
@@ -62,11 +62,14 @@ def one_cycle(path: Path, folder: Path) -> Path:
     return place
 
 
-def cases_of(template: Template, case: Case, count: int) -> list[Case]:
-    """Checked cases of the design."""
-    known = numeric_keys(case)
-    keys = [known[name] for name in KEYS]
-    points = qmc.scale(qmc.LatinHypercube(len(KEYS), rng=1).random(count), LOW, HIGH)
+def cases_of(path: Path, kind: str, count: int) -> list[Case]:
+    """Checked cases of a design."""
+    variant, spans = KINDS[kind]
+    template = load_template(path, variant)
+    known = numeric_keys(load_case_file(path).variants[variant])
+    keys = [known[name] for name in spans]
+    low, high = zip(*spans.values(), strict=True)
+    points = qmc.scale(qmc.LatinHypercube(len(keys), rng=1).random(count), low, high)
     return [case_with(template, changed_values(keys, point)) for point in points]
 
 
@@ -96,33 +99,34 @@ def command_cpu_s(path: Path, folder: Path, count: int) -> float:
     return statistics.median(spent)
 
 
-def batch_row(template: Template, case: Case, count: int, threads: int) -> dict[str, Any]:
-    """Measure one batch, checking its cases included; what it costs a case."""
-    period = case.inlet.period
+def batch_row(path: Path, kind: str, count: int, threads: int) -> dict[str, Any]:
+    """Measure one batch, reading and checking its cases included; what it costs a case."""
     failed: list[str] = []
 
     def run() -> None:
-        cases = cases_of(template, case, count)
-        outcomes = run_batch(cases, np.linspace(0.0, period, INSTANTS + 1), numbers, threads)
+        cases = cases_of(path, kind, count)
+        times = np.linspace(0.0, cases[0].inlet.period, INSTANTS + 1)
+        outcomes = run_batch(cases, times, numbers, threads)
         failed.extend(str(outcome.error) for outcome in outcomes if outcome.error is not None)
 
     row = measured(run)
     per_case = {"cpu_s_per_case": row["cpu_s"] / count, "wall_s_per_case": row["wall_s"] / count}
-    return {"threads": threads, "cases": count, "failed": len(failed), **row, **per_case}
+    return {"kind": kind, "threads": threads, "cases": count, "failed": len(failed), **row, **per_case}
 
 
 def measure(count: int) -> dict[str, Any]:
     """All figures."""
+    few = min(count, FEW)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         path = one_cycle(CASE, folder)
         case = load_case_file(path).variants["local"]
-        template = load_template(path, "local")
         times = np.linspace(0.0, case.inlet.period, INSTANTS + 1)
         run_case(case, times)
         single = [measured(lambda: run_case(case, times))["cpu_s"] for _ in range(min(SINGLE_RUNS, count))]
         command = command_cpu_s(path, folder, min(COMMANDS, count))
-        batches = [batch_row(template, case, min(count, 100), 1), batch_row(template, case, count, 2)]
+        batches = [batch_row(path, kind, few, threads) for kind in KINDS for threads in (1, 2)]
+        batches.append(batch_row(path, "anywhere", count, 2))
     in_process = statistics.median(single)
     for row in batches:
         row["share_of_run_case"] = row["cpu_s_per_case"] / in_process
@@ -148,7 +152,7 @@ def main() -> int:
     print(f"python -m solver: {found['command_median_cpu_s']:.2f} s")
     for row in found["batches"]:
         print(
-            f"{row['cases']} cases on {row['threads']} threads: {row['cpu_s_per_case']:.3f} s a case "
+            f"{row['cases']} {row['kind']} on {row['threads']} threads: {row['cpu_s_per_case']:.3f} s a case "
             f"({row['share_of_run_case']:.0%} of a run, {row['share_of_command']:.0%} of the command), "
             f"{row['wall_s']:.1f} s in all by the clock, {row['failed']} failed"
         )
