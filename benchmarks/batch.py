@@ -2,10 +2,11 @@
 
     python benchmarks/batch.py [--cases 1000] [--output benchmarks/batch.json]
 
-Every case has another local calcification, viscosity and outlet. Three batches: patches anywhere, of which all
-rows are computed; patches symmetric about φ = 180 deg, of which one half is; and rings, of which one row is.
-A case's cost in the batch holds all that it takes: checking its values, its wall, its steady start, the run and the few numbers kept. Costs are processor
-seconds, so that other work on the machine counts little; ratios are of one and the same run of this script.
+Every case has another calcification, viscosity and outlet. Three kinds: patches anywhere, of which all rows
+are computed; patches symmetric about φ = 180 deg, of which one half is; and rings, of which one row is. The
+cost of a case in the batch holds all that it takes: checking its values, its wall, its steady start, the run
+and the few numbers kept. Costs are processor seconds, so that other work on the machine counts little; ratios
+are of one and the same run of this script.
 """
 
 import argparse
