@@ -24,14 +24,19 @@ class Template:
         The keys of a case, the variant merged into the base.
     context : Context
         Where its files are looked for.
+    variant : str
+        The variant's name.
     """
 
     root: Node
     context: Context
+    variant: str
 
 
 def load_template(path: Path, variant: str, overrides: Node | None = None) -> Template:
     """Read one variant of a case file that :func:`cases.case_file.load_case_file` accepts.
+
+    The cells and times that a report tabulates are left out.
 
     Parameters
     ----------
@@ -54,7 +59,17 @@ def load_template(path: Path, variant: str, overrides: Node | None = None) -> Te
         merged = merge_variant(merged, overrides)
     title = Node(variant, root.line, "title")
     context = Context(path.resolve().parent, tuple(variants))
-    return Template(Node({"title": title, **merged.section}, root.line, root.key), context)
+    sections = {"title": title, **merged.section, **_untabulated(merged)}
+    return Template(Node(sections, root.line, root.key), context, variant)
+
+
+def _untabulated(root: Node) -> dict[str, Node]:
+    """Return what is compared without the cells and times of a report, which need not fit other grids."""
+    compare = root.section.get("compare")
+    if compare is None or not isinstance(compare.value, dict):
+        return {}
+    kept = {key: node for key, node in compare.section.items() if key not in ("cells", "times")}
+    return {"compare": Node(kept, compare.line, compare.key)}
 
 
 def check(
@@ -92,7 +107,8 @@ def case_with(template: Template, values: Mapping[Keys, Scalar]) -> Case:
     """
     case, problems = check(template, values)
     if case is None:
-        lines = dict.fromkeys(f"{problem.key}: {problem.message}" for problem in problems)
+        own = f"variants.{template.variant}."
+        lines = dict.fromkeys(f"{p.key.removeprefix(own)}: {p.message}" for p in problems)
         raise CaseFileError(template.context.folder, "\n".join(lines), tuple(problems))
     return case
 
