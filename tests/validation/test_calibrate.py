@@ -183,7 +183,7 @@ def test_a_3d_run_is_fitted(calibration_of, tmp_path, capsys):
             {"calcification.x[2]": {"low": "6 mm", "high": "20 mm", "start": "19 mm"}},
             PRESSURES[:1],
             {"variant": "axisymmetric"},
-            "the run from which the search begins: variants.axisymmetric.calcification.x[2]: 0.019 m; al",
+            "calcification.x[2]: 0.019 m; allowed: at most the artery",
         ),
     ],
     ids=["limit", "unreachable", "no effect", "alike", "failing start", "refused start"],
