@@ -18,6 +18,7 @@ from validation.cached_runs import cached_reference
 from validation.cycle_quantities import CYCLE_QUANTITIES
 from validation.errors import ValidationError
 from validation.rays import rays
+from validation.reduced_model import run_times
 from validation.reference_kinds import REFERENCE_KINDS
 from validation.run import Watch
 
@@ -102,7 +103,7 @@ def _of_targets(case: Case, targets: tuple[Target, ...]) -> Observed:
         values=values,
         scales=np.array(stated) if stated else np.abs(values),
         uncertain=bool(stated),
-        times=last if cycles == 1 else np.concatenate([[0.0], last]),
+        times=run_times(case, last),
         measure=measure,
     )
 
@@ -146,7 +147,6 @@ def _of_reference(
     known = np.isfinite(theirs)
     if not np.any(known):
         raise ValidationError(f"{calibration.path}: the reference states no {quantity} at these places")
-    times = np.unique(np.concatenate([[0.0], alignment.rom_times]))
 
     def measure(model: Model, cells: CellHistory) -> Floats:
         dataset = measured(model, cells, {quantity}).sel(time=alignment.rom_times)
@@ -161,7 +161,7 @@ def _of_reference(
         values=values,
         scales=np.full(values.size, float(np.sqrt(np.mean(values**2)))),
         uncertain=False,
-        times=times,
+        times=run_times(case, alignment.rom_times),
         measure=measure,
     )
 
