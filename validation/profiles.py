@@ -10,7 +10,6 @@ Array = NDArray[np.float64]
 
 EXPONENTS = np.geomspace(0.05, 1000.0, 240)  # brackets of the search for γ; beyond lies plug flow
 TIE = 1e-12  # plug flow counts as closest if no exponent projects better than by this share
-CHUNK = 20_000  # profiles searched at once, to bound memory
 
 
 class ClosestProfile(NamedTuple):
@@ -49,7 +48,8 @@ def closest_profile(
     plug = (y < 1.0).astype(float)
     bases = np.vstack([shapes, plug])
     bases /= np.sqrt(np.sum(w * bases**2, axis=1))[:, None]
-    best = np.concatenate([_best_shape(v[n : n + CHUNK] * w, bases) for n in range(0, max(len(v), 1), CHUNK)])
+    best = np.empty(len(v), dtype=np.int64)
+    _best_shape(v, w, np.ascontiguousarray(bases.T), best)
     velocity, exponent, error = np.empty(len(v)), np.empty(len(v)), np.empty(len(v))
     logarithm = np.log(np.where(y > 0, y, 1.0))
     _refine(v, w, y, logarithm, best, EXPONENTS, velocity, exponent, error)
@@ -82,12 +82,26 @@ def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
     return error
 
 
-def _best_shape(weighted: Array, bases: Array) -> NDArray[np.int64]:
-    """Index of the unit shape that each profile projects on best; the last, plug flow, wins ties."""
-    score = np.abs(weighted @ bases.T)
-    best = np.argmax(score, axis=1)
-    plug = score[:, -1] >= (1.0 - TIE) * np.max(score, axis=1)
-    return np.where(plug, len(bases) - 1, best)
+@njit(cache=True, nogil=True, error_model="numpy")
+def _best_shape(v: Array, w: Array, bases: Array, best: NDArray[np.int64]) -> None:
+    """Index of the unit shape (n_y, m) that each profile projects on best; the last, plug flow, wins ties.
+
+    A kernel and not a matrix product: the threads of a linear algebra library wait for each other at full
+    speed, and take the processor from variants that are computed beside this one.
+    """
+    last = bases.shape[1] - 1
+    score = np.empty(last + 1)
+    for n in range(v.shape[0]):
+        score[:] = 0.0
+        for k in range(w.size):
+            weighted = w[k] * v[n, k]
+            for m in range(last + 1):
+                score[m] += weighted * bases[k, m]
+        found, largest = 0, abs(score[0])
+        for m in range(1, last + 1):
+            if abs(score[m]) > largest:
+                found, largest = m, abs(score[m])
+        best[n] = last if abs(score[last]) >= (1.0 - TIE) * largest else found
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
