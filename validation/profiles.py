@@ -44,16 +44,28 @@ def closest_profile(
     """
     w = np.ones_like(y) if weights is None else weights
     v = np.asarray(velocities, dtype=float)
+    best = _best_shapes(v, w, y)
+    velocity, exponent, error = np.empty(len(v)), np.empty(len(v)), np.empty(len(v))
+    logarithm = np.log(np.where(y > 0, y, 1.0))
+    _refine(v, w, y, logarithm, best, EXPONENTS, velocity, exponent, error)
+    return ClosestProfile(velocity, exponent, error)
+
+
+def nearest_exponents(velocities: Array, y: Array) -> Array:
+    """Exponent of the search's grid that is nearest to each profile's closest one, (n,)."""
+    best = _best_shapes(velocities, np.ones_like(y), y)
+    return np.asarray(EXPONENTS[np.minimum(best, EXPONENTS.size - 1)])
+
+
+def _best_shapes(v: Array, w: Array, y: Array) -> NDArray[np.int64]:
+    """Index of the closest shape of the grid; the last is plug flow."""
     shapes = 1.0 - y[None, :] ** EXPONENTS[:, None]
     plug = (y < 1.0).astype(float)
     bases = np.vstack([shapes, plug])
     bases /= np.sqrt(np.sum(w * bases**2, axis=1))[:, None]
     best = np.empty(len(v), dtype=np.int64)
     _best_shape(v, w, np.ascontiguousarray(bases.T), best)
-    velocity, exponent, error = np.empty(len(v)), np.empty(len(v)), np.empty(len(v))
-    logarithm = np.log(np.where(y > 0, y, 1.0))
-    _refine(v, w, y, logarithm, best, EXPONENTS, velocity, exponent, error)
-    return ClosestProfile(velocity, exponent, error)
+    return best
 
 
 def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
@@ -73,7 +85,14 @@ def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
     ndarray (n, m)
         ‖v − u s‖/‖v‖ with the best u; NaN for a profile that is zero everywhere.
     """
-    shapes = 1.0 - y ** exponents[..., None]
+    return errors_of(velocities, 1.0 - y ** exponents[..., None])
+
+
+def errors_of(velocities: Array, shapes: Array) -> Array:
+    """Relative error of each profile (n, n_y) from the best multiple of given shapes (n, m, n_y), (n, m).
+
+    NaN for a profile that is zero everywhere.
+    """
     best = np.einsum("nk,nmk->nm", velocities, shapes) / np.sum(shapes**2, axis=2)
     rest = np.linalg.norm(velocities[:, None, :] - best[..., None] * shapes, axis=2)
     size = np.broadcast_to(np.linalg.norm(velocities, axis=1)[:, None], rest.shape)
