@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 EXPONENTS = np.geomspace(0.05, 1000.0, 240)  # brackets of the search for γ; beyond lies plug flow
+COARSE = 4  # every so many of them suffice to start a search that brackets by itself
 TIE = 1e-12  # plug flow counts as closest if no exponent projects better than by this share
 
 
@@ -44,7 +45,7 @@ def closest_profile(
     """
     w = np.ones_like(y) if weights is None else weights
     v = np.asarray(velocities, dtype=float)
-    best = _best_shapes(v, w, y)
+    best = _best_shapes(v, w, y, EXPONENTS)
     velocity, exponent, error = np.empty(len(v)), np.empty(len(v)), np.empty(len(v))
     logarithm = np.log(np.where(y > 0, y, 1.0))
     _refine(v, w, y, logarithm, best, EXPONENTS, velocity, exponent, error)
@@ -52,14 +53,15 @@ def closest_profile(
 
 
 def nearest_exponents(velocities: Array, y: Array) -> Array:
-    """Exponent of the search's grid that is nearest to each profile's closest one, (n,)."""
-    best = _best_shapes(velocities, np.ones_like(y), y)
-    return np.asarray(EXPONENTS[np.minimum(best, EXPONENTS.size - 1)])
+    """Exponent of a coarse grid that is nearest to each profile's closest one, (n,): where to search."""
+    grid = EXPONENTS[::COARSE]
+    best = _best_shapes(velocities, np.ones_like(y), y, grid)
+    return np.asarray(grid[np.minimum(best, grid.size - 1)])
 
 
-def _best_shapes(v: Array, w: Array, y: Array) -> NDArray[np.int64]:
-    """Index of the closest shape of the grid; the last is plug flow."""
-    shapes = 1.0 - y[None, :] ** EXPONENTS[:, None]
+def _best_shapes(v: Array, w: Array, y: Array, exponents: Array) -> NDArray[np.int64]:
+    """Index of the exponent whose shape is closest to each profile; one beyond the last is plug flow."""
+    shapes = 1.0 - y[None, :] ** exponents[:, None]
     plug = (y < 1.0).astype(float)
     bases = np.vstack([shapes, plug])
     bases /= np.sqrt(np.sum(w * bases**2, axis=1))[:, None]
