@@ -7,9 +7,8 @@ import numpy as np
 
 from reports.blocks import Figure, Interactive, Paragraph, Section
 from reports.load import Comparison
-from reports.lumen import CELL_COLUMNS, DIGITS, Array, cell_rows, field
+from reports.lumen import Array, cells_header, cells_text, field
 from reports.numbers import SPACE, fixed, listed, share
-from reports.tabular import comma_separated
 from reports.tubes import Tube, tubes
 from reports.words import instant, spot
 
@@ -166,9 +165,5 @@ def section(comparison: Comparison) -> Section:
 def _csv(comparison: Comparison, t_s: float, state: int) -> str:
     names = ("reference_radius", "rom_radius", "calcified")
     fields = comparison.fields.isel(time=state)
-    rows = (
-        (variant, *row)
-        for variant in comparison.variants
-        for row in cell_rows(t_s, fields.sel(variant=variant), names)
-    )
-    return comma_separated(("variant", *CELL_COLUMNS, *names), rows, DIGITS)
+    lines = (cells_text(t_s, fields.sel(variant=name), names, (name,)) for name in comparison.variants)
+    return "".join((cells_header(("variant",), names), *lines))

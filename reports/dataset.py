@@ -1,7 +1,7 @@
 """comparison.nc, opened and checked before anything is drawn."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -106,9 +106,46 @@ def _check_values(path: Path, dataset: xr.Dataset) -> None:
             continue
         if name.startswith("reference_") and dataset.attrs.get("sparse_reference"):
             continue  # NaN is what the reference does not state
-        values = dataset[name]
-        for part in values if "y" in values.dims else (values,):  # large ones need not be held whole
-            _check_finite(path, part, infinite=name in _MAY_BE_INFINITE)
+        if "y" in dataset[name].dims:
+            continue  # checked when they are read, once: they are most of the file
+        _check_finite(path, dataset[name], infinite=name in _MAY_BE_INFINITE)
+
+
+def read_profiles(path: Path, dataset: xr.Dataset, columns: Sequence[int], rows: Sequence[int]) -> xr.Dataset:
+    """Read both models' axial velocity at some cells of an opened comparison.nc.
+
+    Every chunk of the file is read once, whole, a variant at a time: to pick cells from the file itself
+    would unpack it again for each of them.
+
+    Parameters
+    ----------
+    path : Path
+        Named in messages.
+    dataset : xarray.Dataset
+        The opened file.
+    columns, rows : sequence of int
+        Cells along x and φ, counted from 0.
+
+    Returns
+    -------
+    xarray.Dataset
+        PROFILES, each (variant, time, x, phi, y) in m/s.
+
+    Raises
+    ------
+    ReportError
+        If a value anywhere is no finite number, though the reference is no sparse one.
+    """
+    read = {}
+    for name in PROFILES:
+        parts = []
+        for part in dataset[name]:
+            part.load()
+            if not (name.startswith("reference_") and dataset.attrs.get("sparse_reference")):
+                _check_finite(path, part)
+            parts.append(part.isel(x=columns, phi=rows).copy())  # a copy lets the whole go
+        read[name] = xr.concat(parts, "variant")
+    return xr.Dataset(read)
 
 
 def _check_finite(path: Path, values: xr.DataArray, infinite: bool = False) -> None:

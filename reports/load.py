@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from reports.consistency import check_consistency
-from reports.dataset import MODELS, PROFILES, opened, read_attributes
+from reports.dataset import MODELS, opened, read_attributes, read_profiles
 from reports.errors import ReportError
 from reports.metrics import Metrics, read_metrics
 from reports.provenance_file import Provenance, read_provenance
@@ -111,7 +111,8 @@ def load(directory: Path) -> Comparison:
 
 
 def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenance: Provenance) -> Comparison:
-    attributes = read_attributes(directory / "comparison.nc", dataset)
+    path = directory / "comparison.nc"
+    attributes = read_attributes(path, dataset)
     variants = tuple(str(name) for name in dataset["variant"].values)
     check_consistency(directory, variants, attributes, metrics, provenance)
     columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
@@ -131,7 +132,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
         times=attributes.times,
         fields=fields,
         curves=fields.isel(x=columns),
-        profiles=dataset[list(PROFILES)].isel(x=columns, phi=rows).load(),
+        profiles=read_profiles(path, dataset, columns, rows),
         maps=fields.isel(time=states),
         pressure_range_over_section=_pressure_range(fields[_both(("pressure",))]),
         wall_varies_around=_varies_around(dataset["wall_stiffness"].load()),

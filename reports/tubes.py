@@ -148,7 +148,7 @@ def _paint(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array, norm: Norm
     colours[:, :3] *= (0.62 + 0.38 * np.abs(facing))[:, None] * np.where(facing > 0, 1.0, 0.75)[:, None]
     axis.add_collection(
         PolyCollection(
-            list(corners[order, :, :2]),
+            corners[order, :, :2],
             facecolors=colours[order],
             edgecolors=colours[order],
             linewidths=0.3,
