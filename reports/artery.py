@@ -10,7 +10,7 @@ from reports.load import Comparison
 from reports.lumen import Array, cells_header, cells_text, field
 from reports.numbers import SPACE, fixed, listed, share
 from reports.tubes import Tube, tubes
-from reports.words import instant, spot
+from reports.words import baseline_words, instant, spot
 
 _EXAGGERATIONS = (20, 10, 5, 3, 2)
 _NARROWER = 0.01  # a difference of the radius that is read as narrowing
@@ -84,24 +84,23 @@ def _narrowest(comparison: Comparison, state: int) -> str:
 
 def _reach(comparison: Comparison, state: int) -> str:
     """Say how much of the wall beside the calcification is narrower than the baseline's; "" without one."""
-    if not comparison.baseline:
-        return ""
     fields = comparison.fields.isel(time=state)
-    base = fields.sel(variant=comparison.baseline)
     said = []
-    for name in comparison.variants:
-        data = fields.sel(variant=name)
+    for name in comparison.changed:
+        data, base = fields.sel(variant=name), fields.sel(variant=comparison.baselines[name])
         beside = data["calcified"].values == 0
-        if name != comparison.baseline and beside.any():
+        if beside.any():
             three, two = (
                 share(float((data[radius] < (1 - _NARROWER) * base[radius]).values[beside].mean()))
                 for radius in ("reference_radius", "rom_radius")
             )
             said.append(f"{name} {three} in 3D and {two} in 2D")
-    opening = (
-        f"; of the other cells, narrower than in {comparison.baseline} by more than {share(_NARROWER)} are: "
+    return (
+        f"; of the other cells, narrower than in {baseline_words(comparison)} by more than "
+        f"{share(_NARROWER)} are: {', '.join(said)}"
+        if said
+        else ""
     )
-    return f"{opening}{', '.join(said)}" if said else ""
 
 
 def section(comparison: Comparison) -> Section:

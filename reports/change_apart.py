@@ -3,7 +3,7 @@
 from reports.blocks import Column, Table
 from reports.load import Comparison
 from reports.numbers import percent, rounded, unsigned, with_unit
-from reports.words import field_of, quantity_words
+from reports.words import baseline_words, field_of, quantity_words
 
 
 def table(comparison: Comparison, changed: tuple[str, ...]) -> Table | None:
@@ -27,7 +27,7 @@ def table(comparison: Comparison, changed: tuple[str, ...]) -> Table | None:
         "change-apart",
         "Change by calcification over all cells and states: its RMS size in each model, and the RMS distance "
         "of the two changes as a share of the 3D one. 0 % is the same change everywhere; 100 % is no better "
-        f"than to expect none (variant minus {comparison.baseline}).",
+        f"than to expect none (variant minus {baseline_words(comparison)}).",
         (
             Column("variant"),
             Column("quantity", "prose"),

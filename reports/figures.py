@@ -154,6 +154,7 @@ def _curves(
     for column, panel in enumerate(row.panels):
         inches = layout.place(column, abscissa)
         _background(axis, layout, column, panel, marks)
+        dense = bool(np.isfinite(panel.reference).all())
         if panel.rom.size:
             axis.plot(inches, panel.rom, color=ROM_COLOUR, linewidth=1.4, solid_capstyle="round")
             axis.plot(
@@ -162,9 +163,9 @@ def _curves(
                 color=REFERENCE_COLOUR,
                 linestyle="none",
                 marker="o",
-                markersize=1.7,
+                markersize=1.7 if dense else 3.0,
                 markeredgewidth=0,
-                markevery=every,
+                markevery=every if dense else 1,
             )
         else:
             axis.plot(inches, panel.reference, color=REFERENCE_COLOUR, linewidth=1.1)
@@ -201,8 +202,16 @@ def _differences(axis: Axes, layout: Layout, row: PanelRow, abscissa: Array, mar
     )
     for column, (panel, values) in enumerate(zip(row.panels, differences, strict=True)):
         _background(axis, layout, column, panel, marks)
+        single = not np.isfinite(values).all()  # between values that are not stated there is no line
         axis.plot(
-            layout.place(column, abscissa), values, color=DIFFERENCE_COLOUR, linewidth=1.1, linestyle=_DASHES
+            layout.place(column, abscissa),
+            values,
+            color=DIFFERENCE_COLOUR,
+            linewidth=1.1,
+            linestyle="none" if single else _DASHES,
+            marker="o" if single else "none",
+            markersize=2.2,
+            markeredgewidth=0,
         )
     axis.set_ylabel(row.difference, fontsize=7.0, va="bottom")
 
