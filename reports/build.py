@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from reports.ablation import ablation_section
+from reports.blocks import Report
 from reports.content import report
 from reports.drawn import draw, helper
 from reports.gallery import Entry, entry, gallery_place, render_gallery
@@ -59,7 +60,7 @@ def write_gallery(directories: list[Path]) -> Path:
     """
     entries = [_write_reports(directory) for directory in directories]
     place = gallery_place(directories)
-    _write({place: render_gallery(entries, place).encode()})
+    write_pages({place: render_gallery(entries, place).encode()})
     return place
 
 
@@ -71,15 +72,19 @@ def _write_reports(directory: Path) -> Entry:
         if bought is not None:  # before the provenance
             content = replace(content, sections=(*content.sections[:-1], bought, content.sections[-1]))
         drawings = draw({figure.key: figure.drawing for figure in content.figures()}, second)
-    with ThreadPoolExecutor(max_workers=1) as pool:  # typst works outside the interpreter's lock
-        pdf = pool.submit(render_pdf, content, drawings)
-        html = render_html(content, drawings).encode()
-        pages = {directory / "report.html": html, directory / "report.pdf": pdf.result()}
-    _write(pages)
+    html, pdf = rendered(content, drawings)
+    write_pages({directory / "report.html": html, directory / "report.pdf": pdf})
     return entry(directory, comparison, content, drawings)
 
 
-def _write(pages: Mapping[Path, bytes]) -> None:
+def rendered(content: Report, drawings: Mapping[str, str]) -> tuple[bytes, bytes]:
+    """Return a report as HTML and as PDF."""
+    with ThreadPoolExecutor(max_workers=1) as pool:  # typst works outside the interpreter's lock
+        pdf = pool.submit(render_pdf, content, drawings)
+        return render_html(content, drawings).encode(), pdf.result()
+
+
+def write_pages(pages: Mapping[Path, bytes]) -> None:
     """Write each page whole or not at all: a reader never finds half a file."""
     for path, data in pages.items():
         partial = path.with_name(f".{path.name}.{os.getpid()}")
