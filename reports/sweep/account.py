@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, Table, Warnings
+from reports.metrics import Status
 from reports.numbers import ABSENT, counted, listed, rounded, share
 from reports.sweep.held import Held, sentence
 from reports.sweep.load import FAILED, Sweep
@@ -72,17 +73,23 @@ def _range(sweep: Sweep, parameter: Parameter) -> str:
     return f"{amount(parameter, float(values.min()))} … {amount(parameter, float(values.max()))}"
 
 
+def status(found: Held) -> Status:
+    """Judge a band over all its samples: OK only where every one is within it."""
+    if not len(found.ok):
+        return "MISSING"
+    return "OK" if found.ok.all() else "FAIL"
+
+
 def _bands(bands: Sequence[Held]) -> Table:
     rows = []
     for found in sorted(bands, key=lambda f: float(f.ok.mean()) if len(f.ok) else -1.0):
-        sizes = np.abs(found.samples[found.output.name].to_numpy(dtype=float))
+        sizes = found.sizes
         count = len(sizes)
-        status = "MISSING" if not count else "OK" if found.ok.all() else "FAIL"
         worst = int(sizes.argmax()) if count else 0
         rows.append(
             (
                 found.variant,
-                status,
+                status(found),
                 found.output.label,
                 amount(found.output, found.band.limit),
                 f"{int(found.ok.sum())} of {count}",

@@ -1,18 +1,22 @@
 """The page of a sweep, written beside its samples."""
 
+from collections import Counter
 from pathlib import Path
 
 from reports.blocks import Report
-from reports.build import rendered, write_pages
 from reports.drawn import draw
+from reports.gallery import RANKS, Entry
 from reports.numbers import counted, listed
-from reports.sweep.account import failures_section, provenance_section, verdict_section
-from reports.sweep.held import all_held
+from reports.pages import rendered, write_pages
+from reports.sweep.account import failures_section, headline, provenance_section, status, verdict_section
+from reports.sweep.held import all_held, sentence
 from reports.sweep.indices import indices_section
 from reports.sweep.load import STUDY, Sweep, load_sweep
 from reports.sweep.page_data import page_data
 from reports.sweep.responses import held_section, responses_section
 from reports.sweep.words import DESIGNS
+
+HTML, PDF = "index.html", "index.pdf"
 
 
 def is_sweep(directory: Path) -> bool:
@@ -38,12 +42,36 @@ def write_sweep_page(directory: Path) -> tuple[Path, Path]:
     ReportError
         If the folder is not that of a sweep with at least one sample.
     """
-    content = sweep_report(load_sweep(directory))
+    write_sweep_entry(directory)
+    return directory / HTML, directory / PDF
+
+
+def write_sweep_entry(directory: Path) -> Entry:
+    """Write the page of a sweep as :func:`write_sweep_page` does, and return what a gallery shows of it."""
+    sweep = load_sweep(directory)
+    content = sweep_report(sweep)
     drawings = draw({figure.key: figure.drawing for figure in content.figures()}, None)
     html, pdf = rendered(content, drawings)
-    pages = (directory / "index.html", directory / "index.pdf")
-    write_pages(dict(zip(pages, (html, pdf), strict=True)))
-    return pages
+    write_pages({directory / HTML: html, directory / PDF: pdf})
+    bands = all_held(sweep)
+    counts = Counter(str(status(found)) for found in bands)
+    picture = next((figure for figure in content.figures() if figure.key.startswith("held-")), None)
+    return Entry(
+        directory,
+        content.title,
+        content.identity,
+        headline(sweep, bands),
+        tuple(sentence(found, sweep.study.parameters) for found in bands),
+        tuple((word, counts[word]) for word in RANKS if counts[word]),
+        (
+            min((RANKS[status(found)] for found in bands), default=len(RANKS)),
+            -max((found.furthest for found in bands), default=0.0),
+        ),
+        drawings[picture.key] if picture else "",
+        picture.alt if picture else "",
+        HTML,
+        PDF,
+    )
 
 
 def sweep_report(sweep: Sweep) -> Report:

@@ -117,7 +117,7 @@ def means(abscissas: Array, ordinates: Array) -> tuple[Array, Array]:
     if values.size <= _MOST_GROUPS and values.size < x.size:
         return values, np.array([y[x == value].mean() for value in values])
     order = np.argsort(x, kind="stable")
-    parts = np.array_split(order, most)
+    parts = np.array_split(order, min(most, order.size)) if order.size else []
     return np.array([x[part].mean() for part in parts]), np.array([y[part].mean() for part in parts])
 
 

@@ -1,5 +1,6 @@
 """Where a band holds, in numbers and words computed from the samples."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -7,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from reports.numbers import counted
+from reports.numbers import SPACE, counted
 from reports.sweep.load import Sweep
 from reports.sweep.study_file import Band, Output, Parameter
 from reports.sweep.words import amount
@@ -59,6 +60,19 @@ class Held:
     band: Band
     ok: NDArray[np.bool_]
     samples: pd.DataFrame
+
+    @property
+    def sizes(self) -> NDArray[np.float64]:
+        """What the limit is compared with, shape (n,)."""
+        return np.asarray(np.abs(self.samples[self.output.name].to_numpy(dtype=float)))
+
+    @property
+    def furthest(self) -> float:
+        """Largest size over the limit; infinite beyond a limit of zero, 0 without a sample."""
+        largest = float(self.sizes.max(initial=0.0))
+        if self.band.limit:
+            return largest / self.band.limit
+        return math.inf if largest else 0.0
 
 
 def held(sweep: Sweep, variant: str, output: Output, band: Band) -> Held:
@@ -114,7 +128,7 @@ def _split(found: Held, parameter: Parameter, below: bool) -> Split:
 def sentence(found: Held, parameters: Sequence[Parameter]) -> str:
     """Say in how many samples the band holds, and where."""
     count, within = len(found.ok), int(found.ok.sum())
-    band = f"the band on the {found.output.label} (≤ {amount(found.output, found.band.limit)})"
+    band = f"the band on the {found.output.label} (≤{SPACE}{amount(found.output, found.band.limit)})"
     if count == 0:
         return f"{found.variant}: no sample has a value that {band} could judge."
     if within in (0, count):
@@ -130,25 +144,22 @@ def sentence(found: Held, parameters: Sequence[Parameter]) -> str:
 
 def _where(split: Split, count: int) -> str:
     parameter, (held_all, last), (failed_all, first) = split.parameter, split.holds, split.fails
-    to, beyond = ("≤", "≥") if split.below else ("≥", "≤")
+    to, beyond = (f"≤{SPACE}", f"≥{SPACE}") if split.below else (f"≥{SPACE}", f"≤{SPACE}")
     if held_all + failed_all == count:
         return (
-            f"in all with {parameter.label} {to} {amount(parameter, last)} and in none with "
-            f"{beyond} {amount(parameter, first)}"
+            f"in all with {parameter.label} {to}{amount(parameter, last)} and in none with "
+            f"{beyond}{amount(parameter, first)}"
         )
     parts = []
     if held_all:
-        parts.append(f"in all {held_all} with {parameter.label} {to} {amount(parameter, last)}")
+        parts.append(f"in all {held_all} with {parameter.label} {to}{amount(parameter, last)}")
     if failed_all:
-        parts.append(
-            f"in none of the {failed_all} with {parameter.label} {beyond} {amount(parameter, first)}"
-        )
+        parts.append(f"in none of the {failed_all} with {parameter.label} {beyond}{amount(parameter, first)}")
     return f"{' and '.join(parts)}; elsewhere it depends on the others"
 
 
 def _nearest(found: Held) -> str:
     """Name the sample nearest to the limit."""
-    sizes = np.abs(found.samples[found.output.name].to_numpy(dtype=float))
-    at = int(np.abs(sizes - found.band.limit).argmin())
+    at = int(np.abs(found.sizes - found.band.limit).argmin())
     number = int(found.samples["sample"].iloc[at])
-    return f"nearest to the limit is {amount(found.output, float(sizes[at]))} (sample {number})"
+    return f"nearest to the limit is {amount(found.output, float(found.sizes[at]))} (sample {number})"

@@ -40,6 +40,18 @@ def _ordinate(sweep: Sweep, variant: str, output: Output, samples: pd.DataFrame)
     return Ordinate(axis_label(output), values, float(limit), ok)
 
 
+def _size(found: Held) -> Ordinate:
+    """Return what a limit is compared with: the size of an output."""
+    values, factor = found.samples[found.output.name].to_numpy(dtype=float), found.output.display_factor
+    label = axis_label(found.output)
+    return Ordinate(
+        f"size of {label}" if values.size and values.min() < 0 else label,
+        found.sizes * factor,
+        found.band.limit * factor,
+        found.ok,
+    )
+
+
 def influence(
     sweep: Sweep, variant: str, output: Output, samples: pd.DataFrame
 ) -> list[tuple[float, Parameter]]:
@@ -95,7 +107,7 @@ def _map(sweep: Sweep, number: int, found: Held) -> Figure | None:
         caption=f"Where the band holds: {found.output.label} of each sample as colour, {words}. Circles are "
         f"within the limit, crosses beyond it.{line} What to see: {said}",
         alt=f"Samples over {words}, coloured by the {found.output.label}. {said}",
-        drawing=partial(planes, drawn, _ordinate(sweep, found.variant, found.output, found.samples)),
+        drawing=partial(planes, drawn, _size(found)),
         csv=_csv(sweep, found.samples, [found.output]),
     )
 
