@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Tag, field_validator
 
-from cases.section import Section
+from cases.section import Section, told_apart_by
 from cases.values import (
     Angle,
     Context,
@@ -51,6 +51,11 @@ class NoCalcification(Section):
 
     pattern: Literal["none"]
 
+    @property
+    def parts(self) -> tuple["Part", ...]:
+        """No calcified part."""
+        return ()
+
 
 class AxisymmetricCalcification(Section):
     """A calcified ring.
@@ -74,6 +79,11 @@ class AxisymmetricCalcification(Section):
     @classmethod
     def _x(cls, x: tuple[float, float]) -> tuple[float, float]:
         return _increasing(x)
+
+    @property
+    def parts(self) -> tuple["Part", ...]:
+        """The ring itself."""
+        return (self,)
 
 
 class LocalCalcification(Section):
@@ -110,6 +120,14 @@ class LocalCalcification(Section):
             raise refused(found, "a first and a last angle with a patch between them")
         return phi
 
+    @property
+    def parts(self) -> tuple["Part", ...]:
+        """The patch itself."""
+        return (self,)
+
+
+Part = Annotated[AxisymmetricCalcification, Tag("axisymmetric")] | Annotated[LocalCalcification, Tag("local")]
+
 
 def _increasing(x: tuple[float, float]) -> tuple[float, float]:
     if not x[0] < x[1]:
@@ -117,8 +135,34 @@ def _increasing(x: tuple[float, float]) -> tuple[float, float]:
     return x
 
 
+class SeveralCalcifications(Section):
+    """Several rings and patches; where they overlap, the one that changes the modulus most counts.
+
+    Attributes
+    ----------
+    patches : tuple of AxisymmetricCalcification or LocalCalcification
+        One or more.
+    """
+
+    pattern: Literal["several"]
+    patches: tuple[Annotated[Part, told_apart_by("pattern")], ...]
+
+    @field_validator("patches")
+    @classmethod
+    def _patches(cls, patches: tuple[Part, ...]) -> tuple[Part, ...]:
+        if not patches:
+            raise refused("no patches", "one patch or more")
+        return patches
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """The rings and patches."""
+        return self.patches
+
+
 Calcification = (
     Annotated[NoCalcification, Tag("none")]
     | Annotated[AxisymmetricCalcification, Tag("axisymmetric")]
     | Annotated[LocalCalcification, Tag("local")]
+    | Annotated[SeveralCalcifications, Tag("several")]
 )

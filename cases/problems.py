@@ -75,13 +75,18 @@ def _describe(detail: ErrorDetails, place: _Place) -> tuple[Path, str]:
         case "extra_forbidden":
             return path, _unknown_key(place)
         case "union_tag_not_found" | "union_tag_invalid" if isinstance(value, dict):
-            key, tags = DISCRIMINATORS[str(path[-1])], list(members_by_tag(kind))
+            key, tags = _discriminator(path), list(members_by_tag(kind))
             stated = not_one_of(value[key], tags) if key in value else f"missing; allowed: {choices(tags)}"
             return (*path, key), stated
         case "too_long" | "too_short":
             return path, f"{detail['ctx']['actual_length']} items; allowed: {_allowed(kind)}"
         case _:
             return path, f"{shown(value)}; allowed: {_allowed(kind)}"
+
+
+def _discriminator(path: Path) -> str:
+    """Key that says of what kind the section at a path is; those of a list are of one union."""
+    return DISCRIMINATORS[next(part for part in reversed(path) if isinstance(part, str))]
 
 
 def _unknown_key(place: _Place) -> str:
@@ -92,7 +97,7 @@ def _unknown_key(place: _Place) -> str:
         owners = [tag for tag, known in keys_by_tag(place.union).items() if key in known]
     if not owners:
         return unknown_key(key, keys)
-    return f"only with {DISCRIMINATORS[str(place.section[-1])]} {', '.join(owners)}; allowed: {choices(keys)}"
+    return f"only with {_discriminator(place.section)} {', '.join(owners)}; allowed: {choices(keys)}"
 
 
 def _resolve(schema: type[Section], location: Path) -> _Place:

@@ -12,6 +12,7 @@ from cases.calcification import (
     LocalCalcification,
     NoCalcification,
     PatchTransition,
+    SeveralCalcifications,
 )
 from cases.comparison import Band, Cells, Compare
 from cases.inlet import FlowInlet, Inlet, PressureInlet, VelocityInlet
@@ -71,6 +72,7 @@ __all__ = [
     "RecordFile",
     "ResistanceOutlet",
     "SemiImplicitSolver",
+    "SeveralCalcifications",
     "Solver",
     "TableWall",
     "TablesReference",
@@ -156,13 +158,13 @@ class Case(Section):
     @field_validator("calcification")
     @classmethod
     def _inside_the_artery(cls, calcification: Calcification, info: ValidationInfo) -> Calcification:
-        if isinstance(calcification, NoCalcification):
-            return calcification
         geometry, wall = info.data.get("geometry"), info.data.get("wall")
-        if geometry is not None and calcification.x[1] > geometry.length:
-            found = f"{calcification.x[1]:g} m"
-            raise refused(found, f"at most the artery's length ({geometry.length:g} m)", key=("x", 1))
-        own = None if wall is None else row_wall(wall)
+        for k, part in enumerate(calcification.parts):
+            if geometry is not None and part.x[1] > geometry.length:
+                where = ("patches", k) if isinstance(calcification, SeveralCalcifications) else ()
+                allowed = f"at most the artery's length ({geometry.length:g} m)"
+                raise refused(f"{part.x[1]:g} m", allowed, key=(*where, "x", 1))
+        own = None if wall is None or not calcification.parts else row_wall(wall)
         if isinstance(own, LayeredWall) and not any(layer.calcifies for layer in own.layers):
             allowed = "none, unless a layer of the wall states calcifies: true"
             raise refused(calcification.pattern, allowed, key=("pattern",))
@@ -190,9 +192,13 @@ class Case(Section):
         if inlet is not None and solver.time_step > inlet.period:
             allowed = f"at most the period of the inlet ({inlet.period:g} s)"
             raise refused(f"{solver.time_step:g} s", allowed, key=("time_step",))
-        if isinstance(calcification, LocalCalcification) and solver.n_phi < FEWEST_ROWS:
+        parts = () if calcification is None else calcification.parts
+        if any(isinstance(part, LocalCalcification) for part in parts) and solver.n_phi < FEWEST_ROWS:
             allowed = f"{FEWEST_ROWS} or more with a local calcification"
             raise refused(solver.n_phi, allowed, key=("n_phi",))
+        if isinstance(solver, GodunovSolver) and len(parts) > 1:
+            allowed = "semi_implicit with several patches; godunov with one"
+            raise refused(solver.scheme, allowed, key=("scheme",))
         if inlet is not None:
             _refuse_endless_runs(solver, inlet)
             _refuse_unresolved_energy(solver, inlet)

@@ -13,6 +13,7 @@ DISCRIMINATORS = MappingProxyType(
     {
         "wall": "law",
         "calcification": "pattern",
+        "patches": "pattern",
         "inlet": "kind",
         "outlet": "kind",
         "solver": "scheme",

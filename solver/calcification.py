@@ -1,4 +1,4 @@
-"""Where the wall is calcified: one rectangle on (x, φ) with an optional smooth transition (2.2.58–2.2.61)."""
+"""Where the wall is calcified: rectangles on (x, φ) with an optional smooth transition (2.2.58–2.2.61)."""
 
 from dataclasses import dataclass
 

@@ -13,6 +13,7 @@ from solver.errors import AxisNotContinuous, CourantExceeded, EnergyNotBalanced,
 from solver.model import Model
 from solver.schemes.balance import balance, linear_wall
 from solver.schemes.walls import tabulated_area
+from solver.section_wall import SectionWall
 
 GAUSS_POINTS = 6  # of ∫A dP for a tabulated wall
 HISTORY = 3  # earlier states that the energy balance interpolates the powers through
@@ -189,18 +190,25 @@ def last_interval_weights(times: Floats) -> Floats:
 
 def wall_state(model: Model, cells: Columns) -> tuple[Floats, float]:
     """dA/dP of every cell, (n_x, n_phi), m²/Pa, and the sum of ∫P dA from the reference area, J/m per ½dφ."""
+    if model.section_wall is not None:
+        return _section_wall_state(model, model.section_wall, cells)
     start, rest, table = model.reference_pressure, model.radius, model.wall_table
     slope = np.empty(cells.area.shape)
-    if model.section_wall is not None:
-        pressure = cells.pressure
-        slope = model.section_wall.area_and_slope(pressure[:, 0])[1]
-    elif table is None:
+    if table is None:
         return slope, float(linear_wall(cells.area, model.stiffness, rest, start, slope))
-    else:
-        pressure = np.clip(cells.pressure, table.start, table.end)  # round-off may pass the table's end
-        tabulated_area(pressure, table.values, table.start, table.step, np.empty(slope.shape), slope)
+    pressure = np.clip(cells.pressure, table.start, table.end)  # round-off may pass the table's end
+    tabulated_area(pressure, table.values, table.start, table.step, np.empty(slope.shape), slope)
     load = pressure - start
     mean_area = np.zeros(load.shape)
     for place, weight in zip(*np.polynomial.legendre.leggauss(GAUSS_POINTS), strict=True):
         mean_area += 0.5 * weight * model.area(start + 0.5 * (1 + place) * load)
     return slope, float(np.sum(pressure * cells.area - start * rest**2 - mean_area * load))
+
+
+def _section_wall_state(model: Model, wall: SectionWall, cells: Columns) -> tuple[Floats, float]:
+    """:func:`wall_state` with one pressure a section: ∫P dA by parts, ∫A dP exactly."""
+    pressure, start = cells.pressure[:, 0], model.reference_pressure
+    rest = start * model.radius**2 * cells.area.size
+    swept = wall.area_integral(pressure) - wall.area_integral(np.full(pressure.shape, start))
+    energy = np.sum(pressure * cells.area.sum(axis=1)) - rest - np.sum(swept)
+    return wall.area_and_slope(pressure)[1], float(energy)

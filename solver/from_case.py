@@ -34,11 +34,12 @@ def grid_of(case: Case) -> Grid:
 
 
 def calcified_cells(case: Case) -> NDArray[np.bool_]:
-    """Whether each cell's centre lies in the calcified rectangle, (n_x, n_phi)."""
-    grid, patch = grid_of(case), patch_of(case)
-    if patch is None:
-        return np.zeros((grid.n_x, grid.n_phi), dtype=bool)
-    return np.asarray(scaled_distance(grid, patch) == 0)
+    """Whether each cell's centre lies in a calcified rectangle, (n_x, n_phi)."""
+    grid = grid_of(case)
+    inside = np.zeros((grid.n_x, grid.n_phi), dtype=bool)
+    for part in case.calcification.parts:
+        inside |= scaled_distance(grid, patch_of(part)) == 0
+    return inside
 
 
 def _signal(waveform: Samples | None, value: float | None, period: float) -> Signal:

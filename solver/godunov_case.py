@@ -38,11 +38,13 @@ def setup_of(case: Case, model: Model) -> Setup:
     Raises
     ------
     ModelError
-        For a wall law but thin and thick, or a sharp calcification.
+        For a wall law but thin and thick, or a sharp or divided calcification.
     """
     settings = case.solver
     if not isinstance(settings, GodunovSolver):
         raise ModelError(f"scheme {settings.scheme!r}; this run needs godunov")
+    parts = case.calcification.parts
+    patch = patch_of(parts[0]) if parts else None
     return Setup(
         grid=model.grid,
         time_step=settings.time_step,
@@ -50,7 +52,7 @@ def setup_of(case: Case, model: Model) -> Setup:
         density=model.density,
         viscosity=model.viscosity,
         reference_pressure=model.reference_pressure,
-        wall=smooth_wall(model.grid, patch_of(case), *healthy_and_calcified(case)),
+        wall=smooth_wall(model.grid, patch, *healthy_and_calcified(case)),
         inlet_kind=model.inlet.kind,
         inlet=model.inlet.signal,
         offset=lambda times: offsets(model, times),
@@ -88,7 +90,7 @@ def initial_columns(case: Case, model: Model, setup: Setup) -> State:
     healthy, _ = healthy_and_calcified(case)
     before = replace(model, stiffness=np.full_like(model.stiffness, healthy))
     start = _columns(before, steady_state(before, float(model.inlet.signal(0.0))))
-    if patch_of(case) is None:
+    if not case.calcification.parts:
         return start
     ramp = replace(
         setup,

@@ -9,7 +9,7 @@ from solver.schemes.section import advance
 from solver.stepper import INLETS, Kernel, Stepper, outlet_numbers
 from solver.stepper import fields_of as row_fields
 
-TOLERANCE = 5e-7  # relative change of P and Q (root mean square) at which a step's iteration ends
+TOLERANCE = 1e-7  # relative error of P and Q (root mean square) at which a step's iteration ends
 
 
 class SectionStepper(Stepper):

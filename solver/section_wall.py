@@ -64,6 +64,27 @@ class SectionWall:
         """ΣA and ΣdA/dP of every section at the knots, (n_x, knots, 2)."""
         return np.ascontiguousarray(self.values.sum(axis=-1))
 
+    @cached_property
+    def _work(self) -> Floats:
+        """∫ΣA dP of every section from the first knot to each, (n_x, knots)."""
+        area, slope = self.sums[..., 0], self.sums[..., 1] * self.step
+        pieces = 0.5 * (area[:, :-1] + area[:, 1:]) + (slope[:, :-1] - slope[:, 1:]) / 12
+        return np.pad(self.step * np.cumsum(pieces, axis=1), ((0, 0), (1, 0)))
+
+    def area_integral(self, pressure: Floats) -> Floats:
+        """Return ∫ΣA dP of every section from the table's first pressure to section pressures (n_x,), N.
+
+        Raises
+        ------
+        ModelError
+            Beyond the table.
+        """
+        knot, t = self._place(pressure)
+        i = np.arange(knot.size)
+        a0, d0, curve, twist = self._cubic(self.sums, knot)
+        rise = t * (a0 + t * (d0 / 2 + t * (curve / 3 + t * twist / 4)))
+        return np.asarray(self._work[i, knot] + self.step * rise)
+
     def area(self, pressure: Floats) -> Floats:
         """Return A of every cell at section pressures (n_x,), (n_x, n_phi), m².
 
@@ -82,6 +103,14 @@ class SectionWall:
         ModelError
             Beyond the table.
         """
+        knot, t = self._place(pressure)
+        a0, d0, curve, twist = self._cubic(self.values, knot)
+        t = t[:, None]
+        area = a0 + t * (d0 + t * (curve + t * twist))
+        return area, (d0 + t * (2 * curve + 3 * t * twist)) / self.step
+
+    def _place(self, pressure: Floats) -> tuple[NDArray[np.int64], Floats]:
+        """Knot below each section's pressure, and the share of a step beyond it."""
         position = (np.asarray(pressure, dtype=float) - self.start) / self.step
         last = self.values.shape[1] - 2
         outside = np.flatnonzero(~((position >= 0) & (position <= last + 1)))
@@ -91,13 +120,14 @@ class SectionWall:
                 f"section i = {outside[0] + 1} needs {pressure[outside[0]]:g} Pa"
             )
         knot = np.minimum(position.astype(np.int64), last)
-        t = (position - knot)[:, None]
+        return knot, position - knot
+
+    def _cubic(self, table: Floats, knot: NDArray[np.int64]) -> tuple[Floats, Floats, Floats, Floats]:
+        """Coefficients of A between knots, of a table (n_x, knots, 2, …), in powers of a step's share."""
         i = np.arange(knot.size)
-        a0, d0 = self.values[i, knot, 0], self.values[i, knot, 1] * self.step
-        a1, d1 = self.values[i, knot + 1, 0], self.values[i, knot + 1, 1] * self.step
-        curve, twist = 3 * (a1 - a0) - 2 * d0 - d1, d0 + d1 - 2 * (a1 - a0)
-        area = a0 + t * (d0 + t * (curve + t * twist))
-        return area, (d0 + t * (2 * curve + 3 * t * twist)) / self.step
+        a0, d0 = table[i, knot, 0], table[i, knot, 1] * self.step
+        a1, d1 = table[i, knot + 1, 0], table[i, knot + 1, 1] * self.step
+        return a0, d0, 3 * (a1 - a0) - 2 * d0 - d1, d0 + d1 - 2 * (a1 - a0)
 
     def pressure(self, area: Floats) -> Floats:
         """Section pressures (n_x,) at which sections have the sums of areas (n_x, n_phi), Pa.

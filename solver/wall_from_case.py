@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from cases.calcification import AxialTransition, LocalCalcification, NoCalcification, PatchTransition
+from cases.calcification import AxialTransition, LocalCalcification, Part, PatchTransition
 from cases.schema import Case
 from cases.wall import HomogeneousWall, LayeredWall, TableWall, row_wall
 from solver.calcification import Patch, calcified_stiffness, scaled_distance
@@ -32,11 +32,8 @@ class WallOnGrid:
     table: WallTable | None = None
 
 
-def patch_of(case: Case) -> Patch | None:
-    """Calcified rectangle of a case; None for a healthy wall."""
-    stated = case.calcification
-    if isinstance(stated, NoCalcification):
-        return None
+def patch_of(stated: Part) -> Patch:
+    """Rectangle of one calcified part of a case."""
     transition = stated.transition
     return Patch(
         x=stated.x,
@@ -47,11 +44,12 @@ def patch_of(case: Case) -> Patch | None:
 
 
 def modulus_on_grid(case: Case, grid: Grid, healthy: float) -> Floats:
-    """Young's modulus of a calcifying material in every cell, Pa."""
-    stated, patch = case.calcification, patch_of(case)
-    if isinstance(stated, NoCalcification) or patch is None:
-        return np.full((grid.n_x, grid.n_phi), healthy)
-    return calcified_stiffness(healthy, stated.youngs_modulus, scaled_distance(grid, patch))
+    """Young's modulus of a calcifying material in every cell, Pa; of several parts the largest change."""
+    modulus = np.full((grid.n_x, grid.n_phi), healthy)
+    for part in case.calcification.parts:
+        own = calcified_stiffness(healthy, part.youngs_modulus, scaled_distance(grid, patch_of(part)))
+        modulus = np.where(np.abs(own - healthy) > np.abs(modulus - healthy), own, modulus)
+    return modulus
 
 
 def healthy_and_calcified(case: Case) -> tuple[float, float]:
@@ -60,12 +58,14 @@ def healthy_and_calcified(case: Case) -> tuple[float, float]:
     Raises
     ------
     ModelError
-        For another law.
+        For another law, or several calcified parts.
     """
-    wall, geometry, stated = case.wall, case.geometry, case.calcification
+    wall, geometry, parts = case.wall, case.geometry, case.calcification.parts
+    if len(parts) > 1:
+        raise ModelError(f"{len(parts)} calcified patches; allowed here: one")
     if not isinstance(wall, HomogeneousWall) or wall.law not in WALL_LAWS:
         raise ModelError(f"wall law {wall.law!r}; allowed here: {', '.join(WALL_LAWS)}")
-    calcified = wall.youngs_modulus if isinstance(stated, NoCalcification) else stated.youngs_modulus
+    calcified = parts[0].youngs_modulus if parts else wall.youngs_modulus
     moduli = np.array([wall.youngs_modulus, calcified])
     betas = wall_stiffness(wall.law, moduli, geometry.radius, geometry.wall_thickness, wall.poisson_ratio)
     return float(betas[0]), float(betas[1])

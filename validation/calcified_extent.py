@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.calcification import FULL_TURN, LocalCalcification, NoCalcification
+from cases.calcification import FULL_TURN, LocalCalcification, Part
 from cases.schema import Case
+from solver.calcification import distance_around, distance_to_interval
 from validation.mesh import Block
 
 Floats = NDArray[np.float64]
@@ -53,21 +54,45 @@ def doubts(case: Case, coordinates: Floats, blocks: Sequence[Block]) -> list[str
     blocks : sequence of Block
         Calcified elements of the reference.
     """
-    stated = case.calcification
-    if isinstance(stated, NoCalcification):
+    parts = case.calcification.parts
+    if not parts:
         if not blocks:
             return []
         return [f"the reference is calcified at {described(*extent(coordinates, blocks))}; the case is not"]
-    here = np.array([0.0, FULL_TURN])
-    if isinstance(stated, LocalCalcification):
-        here = np.array(stated.phi)
-    wanted = described(np.array(stated.x), here)
     if not blocks:
+        wanted = " and ".join(described(*_stated(part)) for part in parts)
         return [f"the case is calcified at {wanted}; the reference has no calcified domain"]
-    ends, edges = extent(coordinates, blocks)
-    apart = np.abs(ends - np.array(stated.x)).max() > ALONG * case.geometry.length
+    if len(parts) > 1:
+        return _doubts_of_several(case, coordinates, blocks)
+    (x, here), (ends, edges) = _stated(parts[0]), extent(coordinates, blocks)
+    apart = np.abs(ends - x).max() > ALONG * case.geometry.length
     turned = np.abs((edges - here + np.pi) % FULL_TURN - np.pi).max() > AROUND
     whole = (edges[1] - edges[0] == FULL_TURN) != (here[1] - here[0] == FULL_TURN)
     if not (apart or turned or whole):
         return []
-    return [f"the case is calcified at {wanted}; the reference at {described(ends, edges)}"]
+    return [f"the case is calcified at {described(x, here)}; the reference at {described(ends, edges)}"]
+
+
+def _stated(part: Part) -> tuple[Floats, Floats]:
+    """Return the ends (m) and edges (rad) of a calcified part of a case, as :func:`extent` does."""
+    edges = part.phi if isinstance(part, LocalCalcification) else (0.0, FULL_TURN)
+    return np.array(part.x), np.array(edges)
+
+
+def _doubts_of_several(case: Case, coordinates: Floats, blocks: Sequence[Block]) -> list[str]:
+    """Say which of several patches hold no calcified element, and how many elements lie in none."""
+    centres = np.concatenate([coordinates[block.nodes].mean(axis=1) for block in blocks])
+    x, angles = centres[:, 0], np.arctan2(centres[:, 2], centres[:, 1]) % FULL_TURN
+    found, anywhere = [], np.zeros(x.size, dtype=bool)
+    for part in case.calcification.parts:
+        ends, edges = _stated(part)
+        inside = distance_to_interval(x, ends[0], ends[1], None) <= ALONG * case.geometry.length
+        if isinstance(part, LocalCalcification):
+            inside &= distance_around(angles, edges[0], edges[1]) <= AROUND
+        anywhere |= inside
+        if not inside.any():
+            found.append(f"the case is calcified at {described(ends, edges)}; the reference is not")
+    outside = int(np.count_nonzero(~anywhere))
+    if outside:
+        found.append(f"{outside} of {x.size} calcified elements of the reference lie in no patch of the case")
+    return found

@@ -9,7 +9,6 @@ from scipy.interpolate import PchipInterpolator
 
 from cases.reference import FebioReference, Reference
 from cases.schema import (
-    AxisymmetricCalcification,
     Case,
     FourierSeries,
     HomogeneousWall,
@@ -154,9 +153,12 @@ def _wall(case: Case) -> Wall:
 
 
 def _patch(case: Case) -> Patch | None:
-    calcification = case.calcification
-    if not isinstance(calcification, AxisymmetricCalcification | LocalCalcification):
+    parts = case.calcification.parts
+    if not parts:
         return None
+    if len(parts) > 1:
+        raise _refused("calcification.patches", f"{len(parts)} patches", "one patch")
+    calcification = parts[0]
     if calcification.transition != "sharp":
         raise _refused("calcification.transition", "a smooth one", "sharp: elements have one modulus each")
     phi = calcification.phi if isinstance(calcification, LocalCalcification) else None

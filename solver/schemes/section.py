@@ -19,6 +19,7 @@ that the rows sum up to the section. What the mean operator leaves out shrinks a
 import numpy as np
 from numba import njit
 
+from solver.schemes.convergence import remaining
 from solver.schemes.layout import NOT_CONVERGED, NOT_FINITE, OK, PRESSURE_INLET, Array, Stepping
 from solver.schemes.section_ends import (
     end_face_areas,
@@ -290,6 +291,7 @@ def step(
         return status, i, 0, 0
     if p.inlet_kind == PRESSURE_INLET:
         ws.iterate_pressure[0] = value
+    flow_before, pressure_before = 0.0, 0.0
     for sweep in range(1, s.max_sweeps + 1):
         status, i, j, squares = _sweep(p, s, ws, fields, value, offset)
         if status != OK:
@@ -302,8 +304,12 @@ def step(
             return NOT_FINITE, 0, 0, sweep
         rest_flow = p.rest_flow * np.sqrt(ws.residual.size)
         rest_pressure = 1e-9 * np.sqrt(ws.mass.size) + 1e-12 * np.sqrt(level)
-        flow_converged = np.sqrt(change) <= s.tolerance * np.sqrt(size) + rest_flow
-        if flow_converged and np.sqrt(squares) <= s.tolerance * np.sqrt(level) + rest_pressure:
+        flow_change, pressure_change = np.sqrt(change), np.sqrt(squares)
+        flow_error = min(flow_change, remaining(flow_change, flow_before))
+        pressure_error = min(pressure_change, remaining(pressure_change, pressure_before))
+        flow_before, pressure_before = flow_change, pressure_change
+        flow_converged = flow_error <= s.tolerance * np.sqrt(size) + rest_flow
+        if flow_converged and pressure_error <= s.tolerance * np.sqrt(level) + rest_pressure:
             _accept(p, s, ws, fields)
             return OK, 0, 0, sweep
     return NOT_CONVERGED, 0, 0, s.max_sweeps

@@ -17,6 +17,7 @@ see :mod:`solver.schemes.ends`.
 
 import numpy as np
 
+from solver.schemes.convergence import remaining
 from solver.schemes.ends import (
     INLET,
     OUTLET,
@@ -47,8 +48,6 @@ from solver.schemes.momentum import momentum_flux, predict
 from solver.schemes.profile import closure_sources, fixed_sources
 from solver.schemes.vectorisation import inlined_kernel, kernel
 from solver.schemes.walls import wall_area
-
-SLOWEST_RATIO = 0.05  # of two changes: an iteration is not taken to converge faster than this
 
 
 @kernel
@@ -193,13 +192,6 @@ def _start(
 
 
 @kernel
-def _remaining(change: float, before: float) -> float:
-    """Error left after a change that followed another: the rest of their geometric series."""
-    ratio = max(change / before, SLOWEST_RATIO) if change < before else 1.0
-    return change * ratio / (1.0 - ratio) if ratio < 1.0 else np.inf
-
-
-@kernel
 def step(
     p: Parameters,
     s: Stepping,
@@ -239,8 +231,8 @@ def step(
         pressure_change, pressure = accept_pressure(ws.correction, ws.iterate_pressure)
         if not np.isfinite(flow_change + flow + pressure_change + pressure):
             return NOT_FINITE, 0, 0, sweep
-        flow_error = min(flow_change, _remaining(flow_change, flow_before))
-        pressure_error = min(pressure_change, _remaining(pressure_change, pressure_before))
+        flow_error = min(flow_change, remaining(flow_change, flow_before))
+        pressure_error = min(pressure_change, remaining(pressure_change, pressure_before))
         flow_before, pressure_before = flow_change, pressure_change
         flow_converged = flow_error <= s.tolerance * flow + rest_flow
         if flow_converged and pressure_error <= s.tolerance * pressure + 1e-9 + 1e-12 * pressure:

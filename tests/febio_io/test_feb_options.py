@@ -316,6 +316,18 @@ def test_options_that_are_wrong(write, tmp_path, capsys, options, said):
     assert not list(tmp_path.glob("*.feb"))
 
 
+def test_a_model_has_one_patch(write, capsys):
+    ring = {
+        "pattern": "axisymmetric",
+        "youngs_modulus": "3 MPa",
+        "x": ["1 mm", "2 mm"],
+        "transition": "sharp",
+    }
+    two = {"pattern": "several", "patches": [ring, ring | {"x": ["3 mm", "4 mm"]}], "replace": True}
+    assert write(variant="axisymmetric", calcification=two) == 2
+    assert "calcification.patches: 2 patches; allowed in a FEBio model: one patch" in capsys.readouterr().err
+
+
 def test_a_variant_must_be_chosen_where_there_are_several(tmp_path, capsys):
     assert main([str(ROOT / "cases/calcification.yaml"), "--output", str(tmp_path / "m.feb")]) == 2
     assert "none is chosen; --variant allows: none, axisymmetric, local" in capsys.readouterr().err

@@ -1,6 +1,7 @@
 """Courant numbers, mass, continuity and energy: right where known, and able to stop a run."""
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from solver.errors import AxisNotContinuous, CourantExceeded, EnergyNotBalanced,
 from solver.model import uniform_state
 from solver.profiles import continuity_exponent
 from solver.schemes.balance import closed_exponents
+from solver.section_wall import linear_section_wall
 from solver.simulate import simulate
 from solver.steady import steady_state
 from solver.wall_table import MasterCurve, wall_table
@@ -89,6 +91,19 @@ def test_a_tabulated_wall_stores_what_a_linear_one_does():
     area = model.area(pressure)
     cells = Columns(area, area, area, pressure)
     (slope, energy), (wanted_slope, wanted) = wall_state(tabulated, cells), wall_state(model, cells)
+    np.testing.assert_allclose(slope, wanted_slope, rtol=1e-10)
+    assert energy == pytest.approx(wanted, rel=1e-10)
+
+
+def test_a_wall_of_sections_stores_what_its_rows_do():
+    model = artery(12, 8, patch=PATTERNS["local, sharp"], reference_pressure=2e3)
+    sections = replace(
+        model, section_wall=linear_section_wall(model.stiffness, model.radius, model.reference_pressure)
+    )
+    pressure = np.broadcast_to(np.random.default_rng(1).uniform(-5e3, 14e3, (12, 1)), (12, 8)).copy()
+    area = model.area(pressure)
+    cells = Columns(area, area, area, pressure)
+    (slope, energy), (wanted_slope, wanted) = wall_state(sections, cells), wall_state(model, cells)
     np.testing.assert_allclose(slope, wanted_slope, rtol=1e-10)
     assert energy == pytest.approx(wanted, rel=1e-10)
 

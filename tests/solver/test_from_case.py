@@ -54,6 +54,32 @@ def test_smooth_edges_keep_the_patch_and_widen_its_stiffness(variant_of):
     assert np.sum(between) > 8
 
 
+PATCH = (
+    "{pattern: local, youngs_modulus: 10 MPa, x: [5 mm, 10 mm], phi: [135 deg, 225 deg], transition: sharp}"
+)
+RING = "{pattern: axisymmetric, youngs_modulus: 3 MPa, x: [7.5 mm, 12.5 mm], transition: sharp}"
+SOFT = "{pattern: axisymmetric, youngs_modulus: 0.5 MPa, x: [0 mm, 15 mm], transition: {x: 1 mm}}"
+
+
+def test_several_patches(variant_of):
+    patch = model_of(variant_of("patch")).stiffness
+    several = f"{{pattern: several, patches: [{PATCH}, {RING}, {SOFT}]}}"
+    case = variant_of("patch", (PATCH, several))
+    wanted = np.where(patch > 2 * HEALTHY, patch, np.full(patch.shape, HEALTHY) * 5 / 6)
+    ring = np.zeros((12, 8), dtype=bool)
+    ring[6:10] = True
+    wanted[ring & (patch < 2 * HEALTHY)] = 5 * HEALTHY
+    np.testing.assert_allclose(model_of(case).stiffness, wanted, rtol=1e-12)
+    assert np.all(calcified_cells(case))
+
+
+def test_one_of_several_patches_is_that_patch(variant_of):
+    single = variant_of("patch")
+    listed = variant_of("patch", (PATCH, f"{{pattern: several, patches: [{PATCH}]}}"))
+    np.testing.assert_array_equal(model_of(listed).stiffness, model_of(single).stiffness)
+    np.testing.assert_array_equal(calcified_cells(listed), calcified_cells(single))
+
+
 def test_a_constant_inlet(variant_of):
     case = variant_of("healthy", ("waveform: inlet.csv", "value: 10 cm/s, period: 0.8 s"))
     model = model_of(case)

@@ -48,6 +48,16 @@ def test_where_it_is_uniform_a_membrane_is_its_base(case_file, base):
         assert np.allclose(membrane.area(pressure), rows.area(pressure), rtol=1e-6, atol=0)
 
 
+def test_two_patches_that_face_each_other_leave_the_wall_symmetric(case_file):
+    edited(case_file, f"law: membrane, {BASES['thick']}")
+    patch = case_file.read_text().partition("calcification:\n")[2].strip()
+    other = patch.replace("[135 deg, 225 deg]", "[315 deg, 45 deg]")
+    changed(case_file, patch, f"{{pattern: several, patches: [{patch}, {other}]}}")
+    radius = np.sqrt(model_of(load_case_file(case_file).variants["patch"]).area(16e3))
+    np.testing.assert_allclose(radius, np.roll(radius, 4, axis=1), rtol=1e-12)
+    assert np.ptp(radius[6]) > 1e-6
+
+
 def test_a_membrane_with_a_pressure_each_row(case_file):
     edited(case_file, f"law: membrane, {BASES['thick']}", "row")
     case = load_case_file(case_file).variants["patch"]

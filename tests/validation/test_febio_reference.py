@@ -179,6 +179,7 @@ class Calcified(Tube):
 RING = {"pattern": "axisymmetric", "youngs_modulus": "10 MPa", "x": ["5 mm", "10 mm"], "transition": "sharp"}
 PLAQUE = RING | {"pattern": "local", "phi": ["150 deg", "210 deg"]}
 NONE = {"pattern": "none"}
+SEVERAL = {"pattern": "several", "patches": [PLAQUE, RING | {"x": ["1 mm", "2 mm"]}]}
 
 
 @pytest.mark.parametrize(
@@ -196,6 +197,13 @@ NONE = {"pattern": "none"}
         ((5, 7), RING, r"all around; the reference at .* φ 150° to 210°"),
         ((0, 12), PLAQUE, r"φ 150° to 210°; the reference at x 5 to 10 mm, all around"),
         ((11, 12), PLAQUE, r"the reference at x 5 to 10 mm, φ 330° to 0°"),
+        ((5, 7), SEVERAL | {"patches": [PLAQUE]}, None),
+        ((5, 7), SEVERAL, r"calcified at x 1 to 2 mm, all around; the reference is not"),
+        (
+            (3, 7),
+            SEVERAL | {"patches": [PLAQUE, RING | {"x": ["8 mm", "10 mm"]}]},
+            r"8 of 32 calcified elements of the reference lie in no patch",
+        ),
         ((0, 12), NONE, "the reference is calcified at x 5 to 10 mm, all around; the case is not"),
     ],
 )
