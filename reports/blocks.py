@@ -115,7 +115,7 @@ class Interactive:
     """
 
     key: str
-    picture: Literal["curves", "profiles", "maps", "artery", "metrics", "samples"]
+    picture: Literal["curves", "profiles", "maps", "artery", "metrics", "errors", "samples"]
     title: str
     text: str
 

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from reports import error_curves
-from reports.blocks import Figure, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
@@ -97,12 +97,19 @@ def section(comparison: Comparison) -> Section:
     ]
     line = left_out(comparison, [name for _, name in shown], "profiles to fit an exponent to")
     told = (Paragraph(line),) if line else ()
+    any_cell = Interactive(
+        "exponents-anywhere",
+        "errors",
+        "The error over γ, with its values",
+        "Choose a variant, a time and a cell; point at the curve for its values.",
+    )
     return Section(
         "exponents",
         title,
         (
             opening,
             *told,
+            *((any_cell,) if shown else ()),
             *(
                 Subsection(
                     f"exponents-{k}",

@@ -14,7 +14,7 @@ from markupsafe import Markup
 from reports.blocks import Figure, Report
 
 _LARGE = 100_000  # bytes
-_OF_CELLS = ("curves", "profiles", "maps", "artery")  # pictures of both models on the lumen's cells
+_OF_CELLS = ("curves", "profiles", "maps", "artery", "errors")  # pictures of both models on the lumen's cells
 
 
 def render_html(report: Report, drawings: Mapping[str, str]) -> str:

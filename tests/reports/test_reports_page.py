@@ -12,7 +12,7 @@ from opened_page import NARROW, WIDE, Opened, open_page, overflowing, serious_de
 from playwright.sync_api import Browser, Page
 
 Finished = tuple[Path, list[dict[str, Any]]]
-PICTURES = ("curves", "profiles", "maps", "artery", "metrics")
+PICTURES = ("curves", "profiles", "errors", "maps", "artery", "metrics")
 
 
 def _open(browser: Browser, directory: Path, **how: Any) -> Opened:
@@ -142,7 +142,10 @@ def test_the_time_slider_shows_the_maps_of_that_state(opened: Opened, finished: 
 
 def test_pointing_at_curves_and_maps_tells_values(opened: Opened) -> None:
     page = opened.page
-    for key, words in (("curves-anywhere", ("3D", "2D", "mm")), ("maps-anytime", ("x = ", "φ = ", "mm"))):
+    for key, words in (
+        ("curves-anywhere", ("3D", "2D", "mm")),
+        ("maps-anytime", ("x = ", "φ = ", "mm")),
+    ):
         page.locator(f"#{key} .plot").scroll_into_view_if_needed()
         box = page.locator(f"#{key} .nsewdrag").first.bounding_box()
         assert box is not None
@@ -151,6 +154,30 @@ def test_pointing_at_curves_and_maps_tells_values(opened: Opened) -> None:
         page.wait_for_selector(f"#{key} .hoverlayer .hovertext, #{key} .hoverlayer .legend")
         said = page.locator(f"#{key} .hoverlayer").text_content() or ""
         assert all(word in said for word in words), said
+
+
+def test_the_error_over_gamma_is_the_comparisons_own(opened: Opened, finished: Finished) -> None:
+    page, host = opened.page, opened.page.locator("#exponents-anywhere")
+    host.get_by_label("variant", exact=True).select_option(label="local")
+    host.get_by_label("time", exact=True).select_option(index=1)
+    host.get_by_label("cell i").select_option(label="6")
+    host.get_by_label("row j").select_option(label="4")
+    page.wait_for_function(
+        "document.querySelector('#exponents-anywhere .readout').textContent"
+        ".startsWith('Variant local, i = 6, j = 4')"
+    )
+    page.wait_for_timeout(200)
+    plot = "document.querySelector('#exponents-anywhere .plot')"
+    x, y = page.evaluate(f"[[...{plot}.data[0].x], [...{plot}.data[0].y]]")
+    with xr.open_dataset(finished[0] / "comparison.nc", decode_times=False) as data:
+        curve = (
+            data["reference_profile_error_curve"]
+            .sel(variant="local")
+            .isel(compare_time=1, compare_x=1, compare_phi=1)
+        )
+        np.testing.assert_allclose(x, curve["exponent"], rtol=1e-5)
+        np.testing.assert_allclose(y, 100 * curve, atol=2e-3)
+    assert "error %{y" in page.evaluate(f"{plot}.data[0].hovertemplate")
 
 
 def test_curves_are_those_of_the_chosen_cell(opened: Opened, finished: Finished) -> None:
