@@ -55,9 +55,7 @@ def test_a_bias_without_an_interval_says_so():
 def test_changes_are_shown_with_their_sizes_and_distance():
     apart = row("change_rms", 0.869, rom=75.0e-6, reference=64.1e-6)
     table = change_apart.table(comparison(apart, row("change_rms", 0.0, variant="none")), ("local",))
-    assert [plain(line) for line in table.rows] == [
-        ["local", "lumen radius", "0.0641 mm", "0.0750 mm", "87 %"]
-    ]
+    assert [plain(line) for line in table.rows] == [["local", "lumen radius", "64.1 μm", "75.0 μm", "87 %"]]
 
 
 def test_without_changes_there_is_no_table():
