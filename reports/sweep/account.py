@@ -61,11 +61,8 @@ def _state(sweep: Sweep) -> tuple[str, ...]:
 def _unknown(sweep: Sweep) -> tuple[str, ...]:
     ranges = "; ".join(f"{p.label} {_range(sweep, p)}" for p in sweep.study.parameters)
     said = [f"Outside what was sampled ({ranges}) nothing is said."]
-    if sweep.study.against in _AGAINST:
-        said.append(_AGAINST[sweep.study.against])
-    if not sweep.study.against:
-        said.append("The samples are compared with nothing: this page shows how outputs change, not errors.")
-    return tuple(said)
+    nothing = "The samples are compared with nothing: this page shows how outputs change, not errors."
+    return (*said, _AGAINST.get(sweep.study.against or "", nothing))
 
 
 def _range(sweep: Sweep, parameter: Parameter) -> str:
