@@ -20,6 +20,7 @@ ComparedQuantity = Literal[
     "mean_velocity",
     "profile_exponent",
     "sector_flow_rate",
+    "sector_flow_share",
     "section_flow_rate",
     "section_pressure",
     "axial_velocity",

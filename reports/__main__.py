@@ -1,4 +1,4 @@
-"""Draw the reports of finished comparisons again: python -m reports DIR [DIR …]."""
+"""Draw the reports of finished comparisons, or the page of a sweep, again: python -m reports DIR [DIR …]."""
 
 import argparse
 import sys
@@ -6,6 +6,14 @@ from pathlib import Path
 
 from reports.build import write_gallery, write_reports
 from reports.errors import ReportError
+from reports.sweep import is_sweep, write_sweep_page
+
+
+def _written(directories: list[Path]) -> tuple[Path, ...]:
+    if len(directories) > 1:
+        return (write_gallery(directories),)
+    (directory,) = directories
+    return write_sweep_page(directory) if is_sweep(directory) else write_reports(directory)
 
 
 def main() -> int:
@@ -20,11 +28,11 @@ def main() -> int:
         metavar="DIR",
         type=Path,
         nargs="+",
-        help="what `python -m validation.compare` left",
+        help="what `python -m validation.compare` or `python -m validation.sweep` left",
     )
     directories: list[Path] = list(dict.fromkeys(parser.parse_args().directories))
     try:
-        written = (write_gallery(directories),) if len(directories) > 1 else write_reports(directories[0])
+        written = _written(directories)
     except (ReportError, OSError) as error:
         print(f"reports: {error}", file=sys.stderr)
         return 2

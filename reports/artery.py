@@ -7,11 +7,10 @@ import numpy as np
 
 from reports.blocks import Figure, Interactive, Paragraph, Section
 from reports.load import Comparison
-from reports.lumen import CELL_COLUMNS, DIGITS, Array, cell_rows, field
+from reports.lumen import Array, cells_header, cells_text, field
 from reports.numbers import SPACE, fixed, listed, share
-from reports.tabular import comma_separated
 from reports.tubes import Tube, tubes
-from reports.words import instant, spot
+from reports.words import baseline_words, instant, spot
 
 _EXAGGERATIONS = (20, 10, 5, 3, 2)
 _NARROWER = 0.01  # a difference of the radius that is read as narrowing
@@ -85,24 +84,23 @@ def _narrowest(comparison: Comparison, state: int) -> str:
 
 def _reach(comparison: Comparison, state: int) -> str:
     """Say how much of the wall beside the calcification is narrower than the baseline's; "" without one."""
-    if not comparison.baseline:
-        return ""
     fields = comparison.fields.isel(time=state)
-    base = fields.sel(variant=comparison.baseline)
     said = []
-    for name in comparison.variants:
-        data = fields.sel(variant=name)
+    for name in comparison.changed:
+        data, base = fields.sel(variant=name), fields.sel(variant=comparison.baselines[name])
         beside = data["calcified"].values == 0
-        if name != comparison.baseline and beside.any():
+        if beside.any():
             three, two = (
                 share(float((data[radius] < (1 - _NARROWER) * base[radius]).values[beside].mean()))
                 for radius in ("reference_radius", "rom_radius")
             )
             said.append(f"{name} {three} in 3D and {two} in 2D")
-    opening = (
-        f"; of the other cells, narrower than in {comparison.baseline} by more than {share(_NARROWER)} are: "
+    return (
+        f"; of the other cells, narrower than in {baseline_words(comparison)} by more than "
+        f"{share(_NARROWER)} are: {', '.join(said)}"
+        if said
+        else ""
     )
-    return f"{opening}{', '.join(said)}" if said else ""
 
 
 def section(comparison: Comparison) -> Section:
@@ -166,9 +164,5 @@ def section(comparison: Comparison) -> Section:
 def _csv(comparison: Comparison, t_s: float, state: int) -> str:
     names = ("reference_radius", "rom_radius", "calcified")
     fields = comparison.fields.isel(time=state)
-    rows = (
-        (variant, *row)
-        for variant in comparison.variants
-        for row in cell_rows(t_s, fields.sel(variant=variant), names)
-    )
-    return comma_separated(("variant", *CELL_COLUMNS, *names), rows, DIGITS)
+    lines = (cells_text(t_s, fields.sel(variant=name), names, (name,)) for name in comparison.variants)
+    return "".join((cells_header(("variant",), names), *lines))

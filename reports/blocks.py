@@ -115,7 +115,7 @@ class Interactive:
     """
 
     key: str
-    picture: Literal["curves", "profiles", "maps", "artery", "metrics"]
+    picture: Literal["curves", "profiles", "maps", "artery", "metrics", "errors", "samples"]
     title: str
     text: str
 
@@ -166,10 +166,18 @@ class Report:
     sections: tuple[Section, ...]
     data: str
 
-    def figures(self) -> Iterator[Figure]:
-        """All figures, in reading order."""
+    def blocks(self) -> Iterator[Block]:
+        """All blocks, in reading order."""
         for section in self.sections:
             for part in section.blocks:
-                for block in part.blocks if isinstance(part, Subsection) else (part,):
-                    if isinstance(block, Figure):
-                        yield block
+                yield from part.blocks if isinstance(part, Subsection) else (part,)
+
+    def figures(self) -> Iterator[Figure]:
+        """All figures, in reading order."""
+        return (block for block in self.blocks() if isinstance(block, Figure))
+
+    def pictures(self) -> tuple[str, ...]:
+        """Scripts that draw its interactive pictures, each once."""
+        return tuple(
+            dict.fromkeys(block.picture for block in self.blocks() if isinstance(block, Interactive))
+        )

@@ -1,8 +1,5 @@
 """Both renderings of one comparison, written beside it; a page for several."""
 
-import os
-from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,9 +7,9 @@ from reports.ablation import ablation_section
 from reports.content import report
 from reports.drawn import draw, helper
 from reports.gallery import Entry, entry, gallery_place, render_gallery
-from reports.html import render_html
 from reports.load import load
-from reports.pdf import render_pdf
+from reports.pages import rendered, write_pages
+from reports.sweep.build import is_sweep, write_sweep_entry
 
 
 def write_reports(directory: Path) -> tuple[Path, Path]:
@@ -40,12 +37,12 @@ def write_reports(directory: Path) -> tuple[Path, Path]:
 
 
 def write_gallery(directories: list[Path]) -> Path:
-    """Write the reports of several finished comparisons, and a page that leads to them, the worst first.
+    """Write the reports of several comparisons and sweeps, and a page that leads to them, the worst first.
 
     Parameters
     ----------
     directories : list of Path
-        As for :func:`write_reports`.
+        As for :func:`write_reports`, or folders of sweeps.
 
     Returns
     -------
@@ -55,11 +52,14 @@ def write_gallery(directories: list[Path]) -> Path:
     Raises
     ------
     ReportError
-        If one is not a finished comparison; the page is then not written.
+        If one is neither; the page is then not written.
     """
-    entries = [_write_reports(directory) for directory in directories]
+    entries = [
+        write_sweep_entry(directory) if is_sweep(directory) else _write_reports(directory)
+        for directory in directories
+    ]
     place = gallery_place(directories)
-    _write({place: render_gallery(entries, place).encode()})
+    write_pages({place: render_gallery(entries, place).encode()})
     return place
 
 
@@ -71,20 +71,6 @@ def _write_reports(directory: Path) -> Entry:
         if bought is not None:  # before the provenance
             content = replace(content, sections=(*content.sections[:-1], bought, content.sections[-1]))
         drawings = draw({figure.key: figure.drawing for figure in content.figures()}, second)
-    with ThreadPoolExecutor(max_workers=1) as pool:  # typst works outside the interpreter's lock
-        pdf = pool.submit(render_pdf, content, drawings)
-        html = render_html(content, drawings).encode()
-        pages = {directory / "report.html": html, directory / "report.pdf": pdf.result()}
-    _write(pages)
+    html, pdf = rendered(content, drawings)
+    write_pages({directory / "report.html": html, directory / "report.pdf": pdf})
     return entry(directory, comparison, content, drawings)
-
-
-def _write(pages: Mapping[Path, bytes]) -> None:
-    """Write each page whole or not at all: a reader never finds half a file."""
-    for path, data in pages.items():
-        partial = path.with_name(f".{path.name}.{os.getpid()}")
-        try:
-            partial.write_bytes(data)
-            partial.replace(path)
-        finally:
-            partial.unlink(missing_ok=True)

@@ -57,7 +57,16 @@ def cell_tables(
     tables = []
     mark = "section through the calcification" if sections else "inside the calcification"
     for cells in chunks(comparison.i):
-        shown = [line for line in lines if any(found[line, i] for i in cells)]
+        shown = [
+            line
+            for line in lines
+            if any(
+                row is not None and not (comparison.sparse and row.reference is None)
+                for row in (found[line, i] for i in cells)
+            )
+        ]
+        if not shown:
+            continue
         first = 2 if sections else 3
         marked = frozenset(
             (number, first + 2 * column + model)

@@ -12,7 +12,7 @@ from reports.cells import cell_tables
 from reports.load import Comparison
 from reports.metrics import Row
 from reports.numbers import DIFFERENCE_UNITS, SPACE, decimals_for, fixed, listed, percent, plus, with_unit
-from reports.words import field_of, instant, place
+from reports.words import baseline_words, field_of, instant, place
 
 _CELL_QUANTITIES = ("pressure", "radius", "sector_flow_rate")
 _NOTICEABLE = 1e-3  # changes below this share of the baseline's own value are not read as a change
@@ -41,6 +41,7 @@ def _cycle_lines(comparison: Comparison, field: Field) -> list[_CycleLine]:
         _CycleLine(value, find(variant, field.name, "change"), find(variant, field.name, "ratio"))
         for variant in comparison.variants
         if (value := find(variant, field.name, "cycle"))
+        and not (comparison.sparse and value.reference is None)
     ]
 
 
@@ -61,7 +62,7 @@ def _cycle_table(comparison: Comparison) -> Table | None:
         Column("error", "number", "value"),
     ]
     caption = "Quantities of the whole cycle in both models"
-    if comparison.baseline:
+    if comparison.changed:
         columns += [
             Column("3D", "number", "change"),
             Column("2D", "number", "change"),
@@ -69,8 +70,8 @@ def _cycle_table(comparison: Comparison) -> Table | None:
             Column("2D", "number", "ratio"),
         ]
         caption += (
-            ", and how calcification changes them: minus and over the value of variant "
-            f"{comparison.baseline}. The 2D model gets calcification right where its change, not only "
+            f", and how calcification changes them: minus and over the value of variant "
+            f"{baseline_words(comparison)}. The 2D model gets calcification right where its change, not only "
             "its value, is that of 3D"
         )
     if any(field.unit == "s" for field in _cycle_fields(comparison)):
@@ -92,6 +93,8 @@ def _cycle_rows(field: Field, lines: list[_CycleLine], comparison: Comparison) -
     values = [_both(line.value, field.display_factor) for line in lines]
     changes = [_both(line.change, field.display_factor) for line in lines]
     ratios = [_both(line.ratio) for line in lines]
+    if not lines:
+        return []
     decimals = [decimals_for(pair, 4) for pair in values]
     if field.unit == "s":
         decimals = [_time_decimals(comparison)] * len(lines)
@@ -105,7 +108,7 @@ def _cycle_rows(field: Field, lines: list[_CycleLine], comparison: Comparison) -
             *(fixed(n, places) for n in value),
             percent(line.value.error),
         ]
-        if comparison.baseline:
+        if comparison.changed:
             texts += [plus(fixed(n, finer)) for n in change]
             texts += [fixed(n, decimals_for([n], 4, most=3)) for n in ratio]
         rows.append(tuple(texts))
@@ -122,10 +125,6 @@ def _time_decimals(comparison: Comparison) -> int:
     """Decimals of a time in ms, to about a twentieth of the time between two states."""
     step = 1e3 * _between_states(comparison) / 20
     return max(0, -round(math.log10(step))) if step > 0 else 0
-
-
-def _changed(comparison: Comparison) -> tuple[str, ...]:
-    return tuple(name for name in comparison.variants if name != comparison.baseline)
 
 
 def _largest(comparison: Comparison, variant: str, quantity: str) -> str:
@@ -155,7 +154,7 @@ def _noticeable(change: float, value: float) -> bool:
 
 def _signs(comparison: Comparison, variant: str) -> str:
     """Say for how many cycle quantities that change in 3D the 2D model changes the same way."""
-    wrong, changed = [], 0
+    wrong, changed, stated = [], 0, 0
     for field in _cycle_fields(comparison):
         change = comparison.metrics.find(variant, field.name, "change")
         value = comparison.metrics.find(variant, field.name, "cycle")
@@ -163,10 +162,13 @@ def _signs(comparison: Comparison, variant: str) -> str:
             continue
         if change.reference is None or change.rom is None or value.reference is None or value.rom is None:
             continue
+        stated += 1
         if _noticeable(change.reference, value.reference):
             changed += 1
             followed = _noticeable(change.rom, value.rom) and change.reference * change.rom > 0
             wrong += [] if followed else [field.label]
+    if not stated:
+        return ""
     if not changed:
         return "No cycle quantity changes by more than 0.1 % in 3D."
     if not wrong:
@@ -179,12 +181,11 @@ def _signs(comparison: Comparison, variant: str) -> str:
 
 def _sentence(comparison: Comparison, variant: str) -> str:
     largest = [text for name in _CELL_QUANTITIES if (text := _largest(comparison, variant, name))]
-    opening = f"Variant {variant} against {comparison.baseline}: "
+    opening = f"Variant {variant} against {comparison.baselines[variant]}: "
+    signs = _signs(comparison, variant)
     if not largest:
-        return opening + _signs(comparison, variant)
-    return f"{opening}the largest changes at the shown cells are {'; '.join(largest)}. " + _signs(
-        comparison, variant
-    )
+        return opening + (signs or "the reference states nothing that could have changed.")
+    return f"{opening}the largest changes at the shown cells are {'; '.join(largest)}. {signs}".rstrip()
 
 
 def _values(comparison: Comparison) -> Subsection:
@@ -212,11 +213,11 @@ def _values(comparison: Comparison) -> Subsection:
 
 
 def _cell_changes(comparison: Comparison) -> tuple[Block, ...]:
-    changed = _changed(comparison)
+    changed = comparison.changed
     tables = cell_tables(
         comparison,
         "change-section-flow",
-        f"Change of the flow rate through the section: variant minus {comparison.baseline}",
+        f"Change of the flow rate through the section: variant minus {baseline_words(comparison)}",
         "section_flow_rate",
         "change",
         changed,
@@ -227,7 +228,7 @@ def _cell_changes(comparison: Comparison) -> tuple[Block, ...]:
         tables += cell_tables(
             comparison,
             f"change-{quantity}",
-            f"Change of the {FIELDS[quantity].label}: variant minus {comparison.baseline}",
+            f"Change of the {FIELDS[quantity].label}: variant minus {baseline_words(comparison)}",
             quantity,
             "change",
             around if by_sector else changed,
@@ -239,8 +240,8 @@ def section(comparison: Comparison) -> Section:
     """Build the section."""
     times = listed(instant(name, t) for name, t in comparison.times)
     blocks: list[Block | Subsection] = []
-    if comparison.baseline:
-        blocks += [Paragraph(_sentence(comparison, name)) for name in _changed(comparison)]
+    if comparison.changed:
+        blocks += [Paragraph(_sentence(comparison, name)) for name in comparison.changed]
     else:
         blocks.append(
             Paragraph(
@@ -252,14 +253,14 @@ def section(comparison: Comparison) -> Section:
         blocks.append(
             Paragraph(f"Times are counted from the start of the cycle and are those of 3D states: {times}.")
         )
-    apart = change_apart.table(comparison, _changed(comparison)) if comparison.baseline else None
+    apart = change_apart.table(comparison, comparison.changed) if comparison.changed else None
     if apart:
         blocks.append(apart)
     cycle = _cycle_table(comparison)
     if cycle:
         blocks.append(Subsection("whole-cycle", "Over the whole cycle", (cycle,)))
     blocks.append(_values(comparison))
-    changes = _cell_changes(comparison) if comparison.baseline else ()
+    changes = _cell_changes(comparison) if comparison.changed else ()
     if changes:
         blocks.append(Subsection("cell-changes", "Change at the shown cells", changes))
     return Section("change", "What calcification changes", tuple(blocks))

@@ -2,8 +2,8 @@
 
 from reports.blocks import Column, Table
 from reports.load import Comparison
-from reports.numbers import percent, rounded, unsigned, with_unit
-from reports.words import field_of, quantity_words
+from reports.numbers import DIFFERENCE_UNITS, percent, rounded, unsigned, with_unit
+from reports.words import baseline_words, quantity_words
 
 
 def table(comparison: Comparison, changed: tuple[str, ...]) -> Table | None:
@@ -13,11 +13,9 @@ def table(comparison: Comparison, changed: tuple[str, ...]) -> Table | None:
         for row in comparison.metrics.pooled("change_rms"):
             if row.variant != variant:
                 continue
-            field = field_of(row.quantity, row.unit)
+            unit, factor = DIFFERENCE_UNITS.get(row.unit, (row.unit, 1.0))
             sizes = (
-                with_unit(
-                    rounded(None if size is None else size * field.display_factor, 3), field.display_unit
-                )
+                with_unit(rounded(None if size is None else size * factor, 3), unit)
                 for size in (row.reference, row.rom)
             )
             rows.append((variant, quantity_words(row.quantity), *sizes, unsigned(percent(row.error, 0))))
@@ -27,7 +25,7 @@ def table(comparison: Comparison, changed: tuple[str, ...]) -> Table | None:
         "change-apart",
         "Change by calcification over all cells and states: its RMS size in each model, and the RMS distance "
         "of the two changes as a share of the 3D one. 0 % is the same change everywhere; 100 % is no better "
-        f"than to expect none (variant minus {comparison.baseline}).",
+        f"than to expect none (variant minus {baseline_words(comparison)}).",
         (
             Column("variant"),
             Column("quantity", "prose"),

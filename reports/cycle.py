@@ -12,8 +12,19 @@ from reports.blocks import Block, Figure, Interactive, Paragraph, Section, Subse
 from reports.cells import chunks
 from reports.figures import small_multiples
 from reports.load import Comparison
-from reports.numbers import DIFFERENCE_UNITS, SPACE, fixed, listed, rounded, signed, with_unit
+from reports.numbers import (
+    DIFFERENCE_UNITS,
+    SPACE,
+    fixed,
+    listed,
+    percent,
+    rounded,
+    signed,
+    unsigned,
+    with_unit,
+)
 from reports.panels import Curves, PanelRow
+from reports.stated import anywhere, left_out
 from reports.tabular import comma_separated
 from reports.words import column_heading, row_heading, spot
 
@@ -63,28 +74,34 @@ def _panel_row(comparison: Comparison, variant: str, line: _Line, columns: Seque
 def _farthest(comparison: Comparison, line: _Line) -> str:
     """Say where the models differ most."""
     difference = line.rom - line.reference
-    state, column = np.unravel_index(int(np.abs(difference).argmax()), difference.shape)
+    state, column = np.unravel_index(int(np.nanargmax(np.abs(difference))), difference.shape)
     unit, factor = DIFFERENCE_UNITS[line.field.unit]
     t = float(comparison.curves["time"].values[state])
     value = with_unit(signed(float(difference[state, column]) * factor), unit)
-    return f"{line.field.label} {value} ({spot(comparison.i[int(column)], line.j, t)})"
+    where = spot(comparison.i[int(column)], line.j, t)
+    return f"{line.field.label} {value} ({where}){_kind(difference[:, column], unit, factor)}"
 
 
-def _kind(line: _Line) -> str:
-    """Say whether the largest difference of a line is an offset or changes over the cycle."""
-    difference = line.rom - line.reference
-    column = int(np.abs(difference).max(axis=0).argmax())
-    unit, factor = DIFFERENCE_UNITS[line.field.unit]
-    mean, spread = factor * float(difference[:, column].mean()), factor * float(difference[:, column].std())
-    kind = "mostly a constant offset" if abs(mean) > 2 * spread else "mostly a change over the cycle"
-    return (
-        f"{line.field.label}: {kind} ({with_unit(signed(mean), unit)} in the mean, "
-        f"± {with_unit(rounded(spread, 2), unit)})"
-    )
+def _kind(difference: Array, unit: str, factor: float) -> str:
+    """Say whether a difference over the cycle is an offset or changes; "" where too little is stated."""
+    if not np.isfinite(difference).all():
+        return ""
+    mean, spread = factor * float(difference.mean()), factor * float(difference.std())
+    kind = "a constant offset" if abs(mean) > 2 * spread else "a change over the cycle"
+    numbers = f"{signed(mean)}{SPACE}±{SPACE}{with_unit(rounded(spread, 2), unit)}"
+    return f", there mostly {kind} of {numbers}"
 
 
 def _worst_line(lines: Sequence[_Line]) -> _Line:
-    return max(lines, key=lambda line: float(np.abs(line.rom - line.reference).max()))
+    return max(lines, key=lambda line: float(np.nanmax(np.abs(line.rom - line.reference))))
+
+
+def _whole(comparison: Comparison, variant: str, lines: Sequence[_Line]) -> str:
+    """Say the RMS errors over all cells and states; "" where none was scored."""
+    fields = {line.field.name: line.field for line in lines}
+    found = [(f, comparison.metrics.find(variant, name, "rms_error")) for name, f in fields.items()]
+    said = [f"{f.label} {unsigned(percent(r.error))}" for f, r in found if r and r.error is not None]
+    return f" RMS error over all cells and states: {listed(said)}." if said else ""
 
 
 def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Line]) -> tuple[Figure, ...]:
@@ -93,7 +110,7 @@ def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Li
     by_name = [_worst_line([line for line in lines if line.field.label == name]) for name in names]
     farthest = "; ".join(_farthest(comparison, line) for line in by_name)
     what = listed(names)
-    kinds = "; ".join(_kind(line) for line in by_name)
+    whole = _whole(comparison, variant, lines)
     figures = []
     for columns in chunks(comparison.i):
         cells = f"cells i = {listed(columns)}"
@@ -109,9 +126,8 @@ def _figures(comparison: Comparison, variant: str, key: str, lines: Sequence[_Li
             Figure(
                 key=f"{key}-{columns[0]}",
                 caption=f"Variant {variant}: {what} over the cycle at {cells}; 3D as points, 2D as a line, "
-                f"2D − 3D below; each row has its own scale. Farthest apart: {farthest}. "
-                f"What to see: the closer the lower panels stay to zero, the better 2D follows 3D. Where "
-                f"farthest apart, the difference is, {kinds}.",
+                "2D − 3D below; each row has its own scale. What to see: the closer the lower panels stay "
+                f"to zero, the better 2D follows 3D. Farthest apart: {farthest}.{whole}",
                 alt=f"Curves of {what} over time in 3D and 2D with their difference, variant {variant}, a "
                 f"column of panels for each of {cells}. Farthest apart: {farthest}.",
                 drawing=drawing,
@@ -157,23 +173,28 @@ def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:
     key = f"cycle-{number}"
     rows = comparison.rows_of(variant)
     section_flow = _line(comparison, variant, "section_flow_rate", None)
+    blocks: tuple[Block, ...] = ()
     if not comparison.wall_varies_around[variant]:
         lines = [_line(comparison, variant, name, rows[0]) for name in ("pressure", "radius")]
-        blocks: tuple[Block, ...] = (
-            Paragraph(_spread(comparison, variant)),
-            *_figures(comparison, variant, f"{key}-all", [*lines, section_flow]),
-        )
+        lines = [line for line in (*lines, section_flow) if anywhere(line.reference)]
+        if any(line.field.name == "radius" for line in lines):
+            blocks += (Paragraph(_spread(comparison, variant)),)
+        blocks += _figures(comparison, variant, f"{key}-all", lines) if lines else ()
         return Subsection(key, f"Variant {variant}", blocks)
-    blocks = ()
     for name in ("pressure", "radius", "sector_flow_rate"):
         lines = [_line(comparison, variant, name, j) for j in rows]
-        blocks += _figures(comparison, variant, f"{key}-{name}", lines)
-    blocks += _figures(comparison, variant, f"{key}-section", [section_flow])
+        lines = [line for line in lines if anywhere(line.reference)]
+        blocks += _figures(comparison, variant, f"{key}-{name}", lines) if lines else ()
+    if anywhere(section_flow.reference):
+        blocks += _figures(comparison, variant, f"{key}-section", [section_flow])
     return Subsection(key, f"Variant {variant}", blocks)
 
 
 def section(comparison: Comparison) -> Section:
     """Build the section."""
+    parts = {name: _variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)}
+    drawn = [name for name, part in parts.items() if part.blocks]
+    told = left_out(comparison, drawn, "value over the cycle at the shown cells")
     return Section(
         "cycle",
         "Pressure, radius and flow over the cycle",
@@ -184,6 +205,7 @@ def section(comparison: Comparison) -> Section:
                 "Any cell over the cycle",
                 "Choose a variant, a quantity and a cell; point at the curves for their values.",
             ),
-            *(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+            *((Paragraph(told),) if told else ()),
+            *(parts[name] for name in drawn),
         ),
     )

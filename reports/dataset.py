@@ -1,7 +1,7 @@
 """comparison.nc, opened and checked before anything is drawn."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,11 +31,15 @@ _BOTH = {
 _VARIABLES: dict[str, tuple[str, ...]] = {
     **{f"{model}_{name}": dims for model in MODELS for name, dims in _BOTH.items()},
     "reference_profile_error": _CELL,
+    "reference_profile_error_curve": ("variant", "compare_time", "compare_x", "compare_phi", "exponent"),
     "wall_stiffness": ("variant", "x", "phi"),
     "calcified": ("variant", "x", "phi"),
 }
 _MAY_BE_INFINITE = ("reference_profile_exponent", "rom_profile_exponent")  # plug flow
-_MAY_BE_ABSENT = ("reference_profile_error",)  # where nothing flows there is no profile
+_MAY_BE_ABSENT = (  # where nothing flows there is no profile
+    "reference_profile_error",
+    "reference_profile_error_curve",
+)
 _UNREADABLE = (OSError, RuntimeError, TypeError, ValueError)  # what xarray and netCDF4 raise for broken data
 _AXES = ("time", "x", "phi", "y")
 _TEXTS = ("case", "title", "baseline", "compare_time_names", "case_yaml")
@@ -72,7 +76,7 @@ def _unreadable(path: Path, error: Exception) -> ReportError:
 
 
 def _check_names(path: Path, dataset: xr.Dataset) -> None:
-    dimensions = ("variant", *_AXES)
+    dimensions = ("variant", *_AXES, "exponent")
     for what, missing in (
         ("dimension", [name for name in dimensions if name not in dataset.sizes]),
         ("coordinate", [name for name in dimensions if name not in dataset.coords]),
@@ -93,7 +97,7 @@ def _check_axes(path: Path, dataset: xr.Dataset) -> None:
     names = [str(name) for name in dataset["variant"].values]
     if len(set(names)) < len(names):
         raise ReportError(f"{path}: variants {', '.join(names)}: each may occur once")
-    for axis in _AXES:
+    for axis in (*_AXES, "exponent"):
         values = dataset[axis]
         _check_finite(path, values)
         if np.any(np.diff(values.values) <= 0):
@@ -106,9 +110,46 @@ def _check_values(path: Path, dataset: xr.Dataset) -> None:
             continue
         if name.startswith("reference_") and dataset.attrs.get("sparse_reference"):
             continue  # NaN is what the reference does not state
-        values = dataset[name]
-        for part in values if "y" in values.dims else (values,):  # large ones need not be held whole
-            _check_finite(path, part, infinite=name in _MAY_BE_INFINITE)
+        if "y" in dataset[name].dims:
+            continue  # checked when they are read, once: they are most of the file
+        _check_finite(path, dataset[name], infinite=name in _MAY_BE_INFINITE)
+
+
+def read_profiles(path: Path, dataset: xr.Dataset, columns: Sequence[int], rows: Sequence[int]) -> xr.Dataset:
+    """Read both models' axial velocity at some cells of an opened comparison.nc.
+
+    Every chunk of the file is read once, whole, a variant at a time: to pick cells from the file itself
+    would unpack it again for each of them.
+
+    Parameters
+    ----------
+    path : Path
+        Named in messages.
+    dataset : xarray.Dataset
+        The opened file.
+    columns, rows : sequence of int
+        Cells along x and φ, counted from 0.
+
+    Returns
+    -------
+    xarray.Dataset
+        PROFILES, each (variant, time, x, phi, y) in m/s.
+
+    Raises
+    ------
+    ReportError
+        If a value anywhere is no finite number, though the reference is no sparse one.
+    """
+    read = {}
+    for name in PROFILES:
+        parts = []
+        for part in dataset[name]:
+            part.load()
+            if not (name.startswith("reference_") and dataset.attrs.get("sparse_reference")):
+                _check_finite(path, part)
+            parts.append(part.isel(x=columns, phi=rows).copy())  # a copy lets the whole go
+        read[name] = xr.concat(parts, "variant")
+    return xr.Dataset(read)
 
 
 def _check_finite(path: Path, values: xr.DataArray, infinite: bool = False) -> None:
@@ -131,11 +172,14 @@ class Attributes:
         Cells to show, counted from 1.
     times : tuple of (str, float)
         Named instants and their times into the cycle (s).
+    baselines : dict of str to str
+        Of each variant that has one, the variant that its changes are counted from.
     """
 
     case: str
     title: str
     baseline: str
+    baselines: dict[str, str]
     case_yaml: str
     i: tuple[int, ...]
     j: tuple[int, ...]
@@ -160,11 +204,29 @@ def read_attributes(path: Path, dataset: xr.Dataset) -> Attributes:
         case=texts["case"],
         title=texts["title"],
         baseline=texts["baseline"],
+        baselines=_baselines(path, dataset, texts["baseline"], variants),
         case_yaml=texts["case_yaml"],
         i=_cells(path, "compare_i", dataset.attrs["compare_i"], dataset.sizes["x"]),
         j=_cells(path, "compare_j", dataset.attrs["compare_j"], dataset.sizes["phi"]),
         times=_instants(path, dataset, texts["compare_time_names"]),
     )
+
+
+def _baselines(path: Path, dataset: xr.Dataset, baseline: str, variants: Sequence[str]) -> dict[str, str]:
+    """Return each changed variant's baseline; a file that has one for all need not list them."""
+    listed = dataset.attrs.get("baselines")
+    found = dict.fromkeys(variants, baseline) if listed is None and baseline else {}
+    if listed is not None:
+        try:
+            found = json.loads(_text(path, "baselines", listed))
+        except (RecursionError, ValueError) as error:
+            raise ReportError(f"{path}: baselines is {listed[:60]!r}; a JSON object is expected") from error
+        if not isinstance(found, dict) or not {*found, *found.values()} <= {*variants}:
+            raise ReportError(
+                f"{path}: baselines is {listed[:60]}; a variant for a variant is expected, "
+                f"of {', '.join(variants)}"
+            )
+    return {name: of for name, of in found.items() if of != name}
 
 
 def _text(path: Path, name: str, value: object) -> str:

@@ -5,19 +5,21 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reports.blocks import Figure
 from reports.cells import chunks
 from reports.figures import REFERENCE_COLOUR, ROM_COLOUR, small_multiples
-from reports.fit_errors import Array, fit_errors
 from reports.load import Comparison
+from reports.metrics import Row
 from reports.numbers import SPACE, fixed, listed, percent, unsigned
 from reports.panels import Curves, PanelRow
 from reports.tabular import comma_separated
-from reports.words import column_heading, instant, row_heading, spot, top_to_bottom
+from reports.words import column_heading, instant, place, row_heading, top_to_bottom
+
+Array = NDArray[np.float64]
 
 _LOW, _HIGH, _MOST = 1.0, 6.0, 30.0  # exponents of the curves: a cusp, a blunt profile, nearly plug flow
-_COUNT = 101
 
 
 @dataclass(frozen=True)
@@ -32,25 +34,26 @@ class _Line:
     rom: Array
 
 
-def _line(comparison: Comparison, variant: str, named: int, j: int, label: str, exponents: Array) -> _Line:
-    at = {"time": comparison.states[named], "phi": comparison.j.index(j)}
-    profiles = comparison.profiles["reference_axial_velocity"].sel(variant=variant).isel(at)
+def _line(
+    comparison: Comparison, variant: str, named: int, j: int, label: str, drawn: NDArray[np.bool_]
+) -> _Line:
+    curves = comparison.error_curves.sel(variant=variant).isel(
+        compare_time=named, compare_phi=comparison.j.index(j)
+    )
     cells = comparison.curves.sel(variant=variant).isel(time=comparison.states[named], phi=j - 1)
     both = (cells[f"{model}_profile_exponent"].values.astype(float) for model in ("reference", "rom"))
-    y = comparison.profiles["y"].values.astype(float)
-    errors = fit_errors(profiles.values.astype(float), y, exponents)
-    return _Line(label, comparison.times[named][1], j, errors, *both)
+    return _Line(label, comparison.times[named][1], j, curves.values[:, drawn], *both)
 
 
-def _lines(comparison: Comparison, variant: str, exponents: Array) -> list[_Line]:
+def _lines(comparison: Comparison, variant: str, drawn: NDArray[np.bool_]) -> list[_Line]:
     """All instants where one row stands for all, else all rows at the first instant."""
     rows = comparison.rows_of(variant)
     if len(rows) == 1:
         return [
-            _line(comparison, variant, k, rows[0], f"t = {t_s:.3f} s", exponents)
+            _line(comparison, variant, k, rows[0], f"t = {t_s:.3f} s", drawn)
             for k, (_, t_s) in enumerate(comparison.times)
         ]
-    return [_line(comparison, variant, 0, j, row_heading(comparison, j), exponents) for j in rows]
+    return [_line(comparison, variant, 0, j, row_heading(comparison, j), drawn) for j in rows]
 
 
 def _panel(comparison: Comparison, variant: str, line: _Line, i: int, exponents: Array) -> Curves:
@@ -65,31 +68,53 @@ def _panel(comparison: Comparison, variant: str, line: _Line, i: int, exponents:
     )
 
 
-def _price(comparison: Comparison, lines: Sequence[_Line], exponents: Array) -> str:
-    """Say where the 2D exponent costs most against the best possible one."""
-    worst, said = -1.0, ""
-    for line in lines:
-        for k, i in enumerate(comparison.i):
-            own = float(np.interp(line.rom[k], exponents, line.errors[k]))
-            best = float(line.errors[k].min())
-            if np.isfinite(own) and own - best > worst:
-                worst = own - best
-                said = (
-                    f"the 2D exponent costs most at {spot(i, line.j, line.t_s)}: an error of "
-                    f"{unsigned(percent(own))} where {unsigned(percent(best))} is possible"
-                )
-    return said or "no error could be computed"
+def _price(comparison: Comparison, variant: str, lines: Sequence[_Line]) -> str:
+    """Say how small the error can be at the shown cells, and where the 2D exponent costs most."""
+    found = [
+        row
+        for line in lines
+        for i in comparison.i
+        if (row := comparison.metrics.find(variant, "profile_error", "value", i, line.j, line.t_s))
+    ]
+    best = [row.reference for row in found if row.reference is not None]
+    if not best:
+        return "no error was scored at these cells"
+    said = f"at its closest γ the profile is off 3D by {_size(min(best))} to {_size(max(best))}"
+    both = [row for row in found if row.rom is not None and row.reference is not None]
+    if not both:
+        return said
+    worst = max(both, key=_cost)
+    return (
+        f"{said}; the 2D exponent costs most at {place(worst)}: an error of {_size(worst.rom)} where "
+        f"{_size(worst.reference)} is possible"
+    )
+
+
+def _cost(row: Row) -> float:
+    return (row.rom or 0.0) - (row.reference or 0.0)
+
+
+def _size(error: float | None) -> str:
+    return unsigned(percent(error))
+
+
+def _drawn(comparison: Comparison, variant: str) -> NDArray[np.bool_]:
+    """Which of the stored exponents are drawn: up to the largest of both models, within reason."""
+    values = comparison.curves.sel(variant=variant)
+    both = np.concatenate(
+        [values[f"{model}_profile_exponent"].values.ravel() for model in ("reference", "rom")]
+    )
+    largest = float(both[np.isfinite(both)].max(initial=0.0))
+    exponents = comparison.error_curves["exponent"].values
+    return np.asarray((exponents >= _LOW) & (exponents <= min(max(_HIGH, 1.1 * largest), _MOST)))
 
 
 def figures(comparison: Comparison, variant: str, key: str) -> tuple[Figure, ...]:
     """Draw error(γ) of one variant at the shown cells."""
-    values = comparison.curves[["reference_profile_exponent", "rom_profile_exponent"]].sel(variant=variant)
-    largest = max(
-        float(np.where(np.isfinite(v), v, 0.0).max()) for v in (values[name].values for name in values)
-    )
-    exponents = np.linspace(_LOW, min(max(_HIGH, 1.1 * largest), _MOST), _COUNT)
-    lines = _lines(comparison, variant, exponents)
-    price = _price(comparison, lines, exponents)
+    drawn = _drawn(comparison, variant)
+    exponents = comparison.error_curves["exponent"].values[drawn]
+    lines = _lines(comparison, variant, drawn)
+    price = _price(comparison, variant, lines)
     several_rows = len(comparison.rows_of(variant)) > 1
     when = instant(*comparison.times[0]) if several_rows else top_to_bottom(comparison.times)
     return tuple(
@@ -98,8 +123,8 @@ def figures(comparison: Comparison, variant: str, key: str) -> tuple[Figure, ...
             caption=f"Variant {variant}, {when}: relative error of the profile with exponent γ against 3D "
             f"at cells i{SPACE}={SPACE}{listed(columns)}, j{SPACE}={SPACE}"
             f"{listed(dict.fromkeys(line.j for line in lines))}. Black dashes: the closest γ; blue dashes: "
-            f"that of 2D. What to see: in a deep, narrow trough 3D has one clear γ, in a flat one many do as "
-            f"well; {price}.",
+            f"that of 2D. What to see: {price}. In a deep, narrow trough 3D has one clear γ; in a flat one "
+            "many do as well.",
             alt=f"Curves of the error over γ, variant {variant}, {when}, with the closest γ and that of "
             f"2D marked; {price}.",
             drawing=partial(

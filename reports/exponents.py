@@ -6,11 +6,12 @@ import numpy as np
 import xarray as xr
 
 from reports import error_curves
-from reports.blocks import Figure, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
-from reports.numbers import SPACE, fixed, percent, unsigned
+from reports.numbers import SPACE, percent, span, unsigned
+from reports.stated import left_out, mostly
 from reports.words import spot, top_to_bottom
 
 
@@ -48,7 +49,7 @@ def _spans(data: xr.Dataset) -> str:
         values = field(data, f"{model}_profile_exponent")
         values = values[np.isfinite(values)]
         if values.size:
-            spans.append(f"{fixed(float(values.min()), 2)} … {fixed(float(values.max()), 2)} in {name}")
+            spans.append(f"{span(float(values.min()), float(values.max()), 2)} in {name}")
     return f"γ is {' and '.join(spans)}" if spans else "γ is nowhere finite"
 
 
@@ -88,11 +89,27 @@ def section(comparison: Comparison) -> Section:
         f"The 2D model assumes v{SPACE}={SPACE}v₀{SPACE}(1{SPACE}−{SPACE}(r/R)^γ) along each ray. In 3D, γ "
         "is that of the closest such profile; where its error is large, no γ describes the 3D profile."
     )
+    stated = comparison.maps["reference_profile_exponent"]
+    shown = [
+        (k, name)
+        for k, name in enumerate(comparison.variants, start=1)
+        if mostly(stated.sel(variant=name).values)
+    ]
+    line = left_out(comparison, [name for _, name in shown], "profiles to fit an exponent to")
+    told = (Paragraph(line),) if line else ()
+    any_cell = Interactive(
+        "exponents-anywhere",
+        "errors",
+        "The error over γ, with its values",
+        "Choose a variant, a time and a cell; point at the curve for its values.",
+    )
     return Section(
         "exponents",
         title,
         (
             opening,
+            *told,
+            *((any_cell,) if shown else ()),
             *(
                 Subsection(
                     f"exponents-{k}",
@@ -102,7 +119,7 @@ def section(comparison: Comparison) -> Section:
                         _figure(comparison, name, f"exponents-{k}-figure"),
                     ),
                 )
-                for k, name in enumerate(comparison.variants, start=1)
+                for k, name in shown
             ),
         ),
     )

@@ -100,8 +100,7 @@ def _axes(figure: Figure, heights: Sequence[float], layout: Layout, total: float
         axis.set_xlim(0.0, across)
         axis.yaxis.set_label_coords(-_LABEL / across, 0.5)
         axis.spines[["left", "bottom", "top", "right"]].set_visible(False)
-        axis.set_xticks([])
-        axis.set_yticks([])
+        axis.xaxis.set_visible(False)
         axes.append(axis)
         top = bottom - _ROW_GAP
     return axes
@@ -148,32 +147,63 @@ def _curves(
     marks: Sequence[float],
     from_zero: bool,
 ) -> None:
-    every = max(1, -(-abscissa.size // _MOST_MARKERS))
     limits = _limits([a for p in row.panels for a in (p.reference, p.rom)], from_zero)
     _ordinates(axis, layout, limits, 4)
+    _background(axis, layout, row.panels, marks)
+    if any(panel.rom.size for panel in row.panels):
+        axis.plot(
+            *_joined(layout, abscissa, [panel.rom for panel in row.panels]),
+            color=ROM_COLOUR,
+            linewidth=1.4,
+            solid_capstyle="round",
+        )
+        _points(axis, layout, row.panels, abscissa)
+    else:
+        axis.plot(
+            *_joined(layout, abscissa, [panel.reference for panel in row.panels]),
+            color=REFERENCE_COLOUR,
+            linewidth=1.1,
+        )
+    marked = [
+        (float(layout.place(column, at)), colour)
+        for column, panel in enumerate(row.panels)
+        for at, colour in panel.marked
+    ]
+    axis.add_collection(
+        LineCollection(
+            [[(at, limits[0]), (at, limits[1])] for at, _ in marked],
+            colors=[colour for _, colour in marked],
+            linewidths=0.9,
+            linestyles=[_DASHES],
+        ),
+        autolim=False,
+    )
     for column, panel in enumerate(row.panels):
-        inches = layout.place(column, abscissa)
-        _background(axis, layout, column, panel, marks)
-        if panel.rom.size:
-            axis.plot(inches, panel.rom, color=ROM_COLOUR, linewidth=1.4, solid_capstyle="round")
-            axis.plot(
-                inches,
-                panel.reference,
-                color=REFERENCE_COLOUR,
-                linestyle="none",
-                marker="o",
-                markersize=1.7,
-                markeredgewidth=0,
-                markevery=every,
-            )
-        else:
-            axis.plot(inches, panel.reference, color=REFERENCE_COLOUR, linewidth=1.1)
-        for at, colour in panel.marked:
-            axis.plot([layout.place(column, at)] * 2, limits, color=colour, linewidth=0.9, linestyle=_DASHES)
         if panel.note:
             _note(axis, layout, column, panel.note, on_the_right=not panel.rom.size)
     axis.set_ylabel(row.quantity, fontsize=7.5, va="bottom")
     _row_label(axis, row.label)
+
+
+def _joined(layout: Layout, abscissa: Array, ordinates: Sequence[Array]) -> tuple[Array, Array]:
+    """Curves of all panels as one, with gaps between them: a line each would take long to draw."""
+    gap = np.full(1, np.nan)
+    x = [part for column in range(layout.count) for part in (layout.place(column, abscissa), gap)]
+    return np.concatenate(x), np.concatenate([part for values in ordinates for part in (values, gap)])
+
+
+def _points(axis: Axes, layout: Layout, panels: Sequence[Curves], abscissa: Array) -> None:
+    """Draw the reference, some points of a dense curve and all of one that states few."""
+    dense = all(np.isfinite(panel.reference).all() for panel in panels)
+    every = max(1, -(-abscissa.size // _MOST_MARKERS)) if dense else 1
+    axis.plot(
+        *_joined(layout, abscissa[::every], [panel.reference[::every] for panel in panels]),
+        color=REFERENCE_COLOUR,
+        linestyle="none",
+        marker="o",
+        markersize=1.7 if dense else 3.0,
+        markeredgewidth=0,
+    )
 
 
 def _note(axis: Axes, layout: Layout, column: int, note: str, on_the_right: bool) -> None:
@@ -199,27 +229,35 @@ def _differences(axis: Axes, layout: Layout, row: PanelRow, abscissa: Array, mar
         ),
         autolim=False,
     )
-    for column, (panel, values) in enumerate(zip(row.panels, differences, strict=True)):
-        _background(axis, layout, column, panel, marks)
-        axis.plot(
-            layout.place(column, abscissa), values, color=DIFFERENCE_COLOUR, linewidth=1.1, linestyle=_DASHES
-        )
+    _background(axis, layout, row.panels, marks)
+    single = not all(np.isfinite(values).all() for values in differences)  # no line between single values
+    axis.plot(
+        *_joined(layout, abscissa, differences),
+        color=DIFFERENCE_COLOUR,
+        linewidth=1.1,
+        linestyle="none" if single else _DASHES,
+        marker="o" if single else "none",
+        markersize=2.2,
+        markeredgewidth=0,
+    )
     axis.set_ylabel(row.difference, fontsize=7.0, va="bottom")
 
 
-def _background(axis: Axes, layout: Layout, column: int, panel: Curves, marks: Sequence[float]) -> None:
-    """Draw the tint of a calcified cell, the panel's own axis, and the named instants."""
+def _background(axis: Axes, layout: Layout, panels: Sequence[Curves], marks: Sequence[float]) -> None:
+    """Draw the tint of calcified cells, each panel's own axis, and the named instants."""
     transform = axis.get_xaxis_transform()
-    left = layout.lefts[column]
-    if panel.calcified:
-        axis.add_patch(
-            Rectangle((left, 0), layout.width, 1, transform=transform, color=TINT, linewidth=0, zorder=0.2)
-        )
-    frame = [[(left, 1.0), (left, 0.0), (left + layout.width, 0.0)]]
+    for left, panel in zip(layout.lefts, panels, strict=True):
+        if panel.calcified:
+            axis.add_patch(
+                Rectangle(
+                    (left, 0), layout.width, 1, transform=transform, color=TINT, linewidth=0, zorder=0.2
+                )
+            )
+    frames = [[(left, 1.0), (left, 0.0), (left + layout.width, 0.0)] for left in layout.lefts]
     axis.add_collection(
-        LineCollection(frame, colors="#000000", linewidths=0.5, transform=transform), autolim=False
+        LineCollection(frames, colors="#000000", linewidths=0.5, transform=transform), autolim=False
     )
-    places = [float(layout.place(column, mark)) for mark in marks]
+    places = [float(layout.place(column, mark)) for column in range(layout.count) for mark in marks]
     lines = [[(place, 0.0), (place, 1.0)] for place in places]
     axis.add_collection(
         LineCollection(lines, colors=_MARK_COLOUR, linewidths=0.6, linestyles=":", transform=transform),
@@ -232,6 +270,7 @@ def _abscissas(axis: Axes, layout: Layout) -> None:
     ticks = _ticks(layout.low, layout.high, 3)
     words = [f"{tick:g}" for tick in ticks]
     places = [float(layout.place(column, tick)) for column in range(layout.count) for tick in ticks]
+    axis.xaxis.set_visible(True)
     axis.set_xticks(places, words * layout.count)
 
 

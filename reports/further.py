@@ -2,8 +2,8 @@
 
 from reports.blocks import Column, Table
 from reports.load import Comparison
-from reports.metrics import DIFFERENCE_STATISTICS, Row
-from reports.numbers import ABSENT, DIFFERENCE_UNITS, percent, rounded, signed, with_unit
+from reports.metrics import Row
+from reports.numbers import ABSENT, percent, rounded, with_unit
 from reports.words import STATISTICS, field_of, place, quantity_words, statistic_words
 
 _BY_CELL_AND_STATE = ("plane_integral", "prescribed_inflow")
@@ -16,16 +16,17 @@ def table(comparison: Comparison, placed: frozenset[str]) -> Table | None:
         _line(row)
         for row in comparison.metrics.rows
         if not row.status
-        and (row.statistic not in STATISTICS or row.statistic in DIFFERENCE_STATISTICS)
+        and row.statistic not in STATISTICS
         and row.statistic not in (*_BY_CELL_AND_STATE, *_PLACED)
         and (row.statistic != "largest" or row.quantity not in placed)
-        and (row.i is None or row.statistic.startswith(("largest", "max_")))
+        and (row.i is None or row.statistic == "largest")
+        and (row.reference is not None or row.error is not None)
     )
     if not rows:
         return None
     return Table(
         "further",
-        "Further figures of the whole artery and cycle.",
+        "Further figures of the whole artery and cycle; metrics.csv holds all there are.",
         (
             Column("variant"),
             Column("quantity", "prose"),
@@ -48,10 +49,5 @@ def _line(row: Row) -> tuple[str, ...]:
         text = rounded(None if number is None else number * shown.display_factor)
         return with_unit(text, shown.display_unit)
 
-    if row.statistic in DIFFERENCE_STATISTICS and row.error is not None:
-        unit, factor = DIFFERENCE_UNITS.get(row.unit, (row.unit, 1.0))
-        error = with_unit(signed(factor * row.error), unit)
-    else:
-        error = percent(row.error)
     texts = (quantity_words(row.quantity), statistic_words(row.statistic), value(row.reference))
-    return (row.variant, *texts, value(row.rom), error, place(row) or ABSENT)
+    return (row.variant, *texts, value(row.rom), percent(row.error), place(row) or ABSENT)

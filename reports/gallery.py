@@ -1,4 +1,4 @@
-"""One page for several comparisons, the worst first, with links to their reports."""
+"""One page for several comparisons and sweeps, the worst first, with links to their reports."""
 
 import os
 from collections import Counter
@@ -11,12 +11,12 @@ from reports.html.render import environment
 from reports.load import Comparison
 from reports.verdict import by_variant, headline
 
-_RANKS = {"FAIL": 0, "MISSING": 1, "OK": 2}
+RANKS = {"FAIL": 0, "MISSING": 1, "OK": 2}
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One comparison of the gallery.
+    """One comparison, or one sweep, of the gallery.
 
     Attributes
     ----------
@@ -32,6 +32,8 @@ class Entry:
         The worst has the least.
     picture, alt : str
         SVG of the artery, and the words that stand for it; "" for none.
+    page, pdf : str
+        Names of its report's files.
     """
 
     directory: Path
@@ -43,13 +45,15 @@ class Entry:
     rank: tuple[float, float]
     picture: str
     alt: str
+    page: str = "report.html"
+    pdf: str = "report.pdf"
 
 
 def entry(directory: Path, comparison: Comparison, report: Report, drawings: dict[str, str]) -> Entry:
     """Sum up one comparison: bands that fail come first, by how far, then missing ones, then held ones."""
     bands = comparison.metrics.bands()
     counts = Counter(str(row.status) for row in bands)
-    worst = min((_RANKS[row.status] for row in bands), default=len(_RANKS))
+    worst = min((RANKS[row.status] for row in bands), default=len(RANKS))
     furthest = max((row.ratio for row in bands if row.error is not None), default=0.0)
     still = next((figure for figure in report.figures() if figure.key == "artery-still"), None)
     return Entry(
@@ -58,7 +62,7 @@ def entry(directory: Path, comparison: Comparison, report: Report, drawings: dic
         report.identity,
         headline(comparison),
         by_variant(comparison),
-        tuple((status, counts[status]) for status in _RANKS if counts[status]),
+        tuple((status, counts[status]) for status in RANKS if counts[status]),
         (worst, -furthest),
         drawings[still.key] if still else "",
         still.alt if still else "",

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from reports.consistency import check_consistency
-from reports.dataset import MODELS, PROFILES, opened, read_attributes
+from reports.dataset import MODELS, opened, read_attributes, read_profiles
 from reports.errors import ReportError
 from reports.metrics import Metrics, read_metrics
 from reports.provenance_file import Provenance, read_provenance
@@ -34,6 +34,10 @@ class Comparison:
         Cells around the artery.
     times : tuple of (str, float)
         Named instants and their times into the cycle (s).
+    baselines : dict of str to str
+        Of each variant that has one, the variant that its changes are counted from.
+    sparse : bool
+        Whether the reference states some values only; NaN is what it does not.
     fields : xarray.Dataset
         Both models' pressure, radius, sector and section flow rate, profile exponent, and the error of the
         profile closest to 3D, over the cycle on all cells; which cells are calcified.
@@ -43,6 +47,8 @@ class Comparison:
         Both models' axial velocity (m/s) at the shown cells over the cycle, over y = r/R.
     maps : xarray.Dataset
         The fields at the named instants.
+    error_curves : xarray.DataArray
+        At the named instants and shown cells, relative error of the closest profile over its exponent.
     pressure_range_over_section : xarray.Dataset
         Of both models and each variant, the largest range over φ of the pressure in a section (Pa).
     wall_varies_around : dict of str to bool
@@ -64,10 +70,13 @@ class Comparison:
     phi: tuple[float, ...]
     n_phi: int
     times: tuple[tuple[str, float], ...]
+    baselines: dict[str, str]
+    sparse: bool
     fields: xr.Dataset
     curves: xr.Dataset
     profiles: xr.Dataset
     maps: xr.Dataset
+    error_curves: xr.DataArray
     pressure_range_over_section: xr.Dataset
     wall_varies_around: dict[str, bool]
     metrics: Metrics
@@ -83,6 +92,11 @@ class Comparison:
         """Whether cell (i, j), or any cell of section i, is inside the calcification."""
         inside = self.fields["calcified"].sel(variant=variant).values[i - 1]
         return bool(inside.any() if j is None else inside[j - 1])
+
+    @property
+    def changed(self) -> tuple[str, ...]:
+        """Variants that have another one as their baseline."""
+        return tuple(name for name in self.variants if name in self.baselines)
 
     def rows_of(self, variant: str) -> tuple[int, ...]:
         """Rows j worth showing: one where the wall is the same all around, else all."""
@@ -111,7 +125,8 @@ def load(directory: Path) -> Comparison:
 
 
 def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenance: Provenance) -> Comparison:
-    attributes = read_attributes(directory / "comparison.nc", dataset)
+    path = directory / "comparison.nc"
+    attributes = read_attributes(path, dataset)
     variants = tuple(str(name) for name in dataset["variant"].values)
     check_consistency(directory, variants, attributes, metrics, provenance)
     columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
@@ -129,10 +144,13 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
         phi=tuple(dataset["phi"].values[rows].tolist()),
         n_phi=dataset.sizes["phi"],
         times=attributes.times,
+        baselines=attributes.baselines,
+        sparse=bool(dataset.attrs.get("sparse_reference")),
         fields=fields,
         curves=fields.isel(x=columns),
-        profiles=dataset[list(PROFILES)].isel(x=columns, phi=rows).load(),
+        profiles=read_profiles(path, dataset, columns, rows),
         maps=fields.isel(time=states),
+        error_curves=dataset["reference_profile_error_curve"].load(),
         pressure_range_over_section=_pressure_range(fields[_both(("pressure",))]),
         wall_varies_around=_varies_around(dataset["wall_stiffness"].load()),
         metrics=metrics,

@@ -1,6 +1,6 @@
 """Fields on all cells of the lumen at one instant: arrays for maps, and their data."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -32,13 +32,21 @@ def outlined(data: xr.Dataset) -> str:
 
 def cells_csv(instants: Sequence[tuple[float, xr.Dataset]], names: Sequence[str]) -> str:
     """All cells at each of the (time, fields), SI."""
-    rows = (row for t_s, data in instants for row in cell_rows(t_s, data, names))
-    return comma_separated((*CELL_COLUMNS, *names), rows, DIGITS)
+    texts = (cells_text(t_s, data, names) for t_s, data in instants)
+    return "".join((cells_header((), names), *texts))
 
 
-def cell_rows(t_s: float, data: xr.Dataset, names: Sequence[str]) -> Iterator[tuple[object, ...]]:
-    """Rows of all cells at one time: the columns of a cell, then the variables."""
+def cells_header(first: Sequence[str], names: Sequence[str]) -> str:
+    """First line of the data of all cells, below which :func:`cells_text` fits."""
+    return comma_separated((*first, *CELL_COLUMNS, *names), ())
+
+
+def cells_text(t_s: float, data: xr.Dataset, names: Sequence[str], first: Sequence[str] = ()) -> str:
+    """Lines of all cells at one time: what stands `first` in each, the columns of a cell, the variables."""
     x, phi = np.meshgrid(data["x"].values, data["phi"].values, indexing="ij")
     i, j = np.indices(x.shape) + 1
     columns = [values.ravel().tolist() for values in (i, j, x, phi, *(field(data, name) for name in names))]
-    yield from zip([t_s] * x.size, *columns, strict=True)
+    number = f"%.{DIGITS}g"
+    start = comma_separated((*first, f"{t_s:.{DIGITS}g}"), ()).rstrip("\n").replace("%", "%%")
+    line = f"{start},%d,%d" + f",{number}" * (len(columns) - 2) + "\n"
+    return "".join([line % row for row in zip(*columns, strict=True)])  # a line at once: there are thousands

@@ -12,6 +12,7 @@ from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
 from reports.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
+from reports.stated import left_out, mostly
 from reports.words import instant, spot
 
 _MAPPED = ("radius", "sector_flow_rate", "profile_exponent", "pressure")
@@ -22,6 +23,11 @@ def _difference(data: xr.Dataset, name: str) -> Array:
     """2D − 3D in SI; NaN where a profile exponent is infinite in both."""
     with np.errstate(invalid="ignore"):
         return field(data, f"rom_{name}") - field(data, f"reference_{name}")
+
+
+def _mapped(data: xr.Dataset) -> tuple[str, ...]:
+    """Quantities that the reference states in most cells at one instant."""
+    return tuple(name for name in _MAPPED if mostly(data[f"reference_{name}"].values))
 
 
 def _label(symbol: str, unit: str) -> str:
@@ -76,7 +82,7 @@ def _inside(data: xr.Dataset, quantities: Sequence[Field]) -> str:
 
 def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figure:
     data = comparison.maps.sel(variant=variant).isel(time=state)
-    quantities = [FIELDS[name] for name in _MAPPED]
+    quantities = [FIELDS[name] for name in _mapped(data)]
     when = instant(*comparison.times[state])
     farthest = "; ".join(_farthest(data, quantity) for quantity in quantities)
     what = listed(quantity.label for quantity in quantities)
@@ -96,7 +102,7 @@ def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figur
         ),
         csv=cells_csv(
             [(comparison.times[state][1], data)],
-            [f"{model}_{name}" for name in _MAPPED for model in ("reference", "rom")],
+            [f"{model}_{quantity.name}" for quantity in quantities for model in ("reference", "rom")],
         ),
     )
 
@@ -106,9 +112,18 @@ def section(comparison: Comparison) -> Section:
     title = "(x, φ) maps"
     if not comparison.times:
         return Section("maps", title, (Paragraph(WITHOUT_INSTANT),))
+    shown = [
+        (k, name)
+        for k, name in enumerate(comparison.variants, start=1)
+        if _mapped(comparison.maps.sel(variant=name).isel(time=0))
+    ]
+    line = left_out(comparison, [name for _, name in shown], "field over all cells")
+    told = (Paragraph(line),) if line else ()
+    if not shown:
+        return Section("maps", title, told)
     figures = tuple(
         Subsection(f"maps-{k}", f"Variant {name}", (_figure(comparison, name, 0, f"maps-{k}-figure"),))
-        for k, name in enumerate(comparison.variants, start=1)
+        for k, name in shown
     )
     slider = Interactive(
         "maps-anytime",
@@ -121,4 +136,4 @@ def section(comparison: Comparison) -> Section:
         f"The still maps are at {instant(*comparison.times[0])}; comparison.nc holds all "
         f"{comparison.fields.sizes['time']} states."
     )
-    return Section("maps", title, (opening, slider, *figures))
+    return Section("maps", title, (opening, *told, slider, *figures))

@@ -46,6 +46,12 @@ def rounded(value: float | None, significant: int = 4) -> str:
     return "0" if _is_zero(text) else text
 
 
+def span(low: float, high: float, decimals: int) -> str:
+    """E.g. "1.71 … 2.61", or one number where both are the same to so many decimals."""
+    ends = dict.fromkeys((fixed(low, decimals), fixed(high, decimals)))
+    return " … ".join(ends)
+
+
 def signed(value: float | None, significant: int = 3) -> str:
     """As `rounded`, with a plus sign where there is no minus."""
     return plus(rounded(value, significant))

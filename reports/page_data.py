@@ -38,10 +38,20 @@ def page_data(comparison: Comparison) -> str:
         ],
         "fields": {name: _both(comparison, FIELDS[name], data) for name in (*ON_CELLS, "section_flow_rate")},
         "profiles": _both(comparison, FIELDS["axial_velocity"], comparison.profiles),
+        "errors": _errors(comparison),
         "artery": _artery(comparison),
         "metrics": _metrics(comparison.metrics),
     }
     return json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+def _errors(comparison: Comparison) -> dict[str, Any]:
+    """Error (%) of the closest profile over its exponent: instant, i, j, γ for each variant."""
+    curves = comparison.error_curves
+    return {
+        "gamma": _digits(curves["exponent"].values),
+        "values": [pack(100 * curves.sel(variant=name).values).plain() for name in comparison.variants],
+    }
 
 
 def _artery(comparison: Comparison) -> dict[str, float] | None:

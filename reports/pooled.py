@@ -3,16 +3,17 @@
 from reports.blocks import Column, Table
 from reports.load import Comparison
 from reports.metrics import Row
-from reports.numbers import ABSENT, percent, unsigned
+from reports.numbers import ABSENT, DIFFERENCE_UNITS, SPACE, percent, rounded, unsigned, with_unit
 from reports.words import place, quantity_words
 
 _STATISTICS = ("bias", "scatter", "rms_error", "max_error")
+_ABSOLUTE = "rms_difference"
 
 
 def table(comparison: Comparison) -> Table | None:
     """Return the table; None where nothing was pooled. Quantities with the same figures share a line."""
     found: dict[tuple[str, str], dict[str, Row]] = {}
-    for statistic in _STATISTICS:
+    for statistic in (*_STATISTICS, _ABSOLUTE):
         for row in comparison.metrics.pooled(statistic):
             found.setdefault((row.variant, row.quantity), {})[statistic] = row
     if not found:
@@ -28,7 +29,10 @@ def table(comparison: Comparison) -> Table | None:
     rows = tuple(
         (variant, "; ".join(words for words, _ in same), *figures, same[0][1])
         for (variant, *figures), same in lines.items()
+        if any(text != ABSENT for text in figures)
     )
+    if not rows:
+        return None
     return Table(
         "pooled",
         "Errors over all cells and all states of the cycle. A bias near the RMS error means that the 2D "
@@ -40,9 +44,10 @@ def table(comparison: Comparison) -> Table | None:
             Column("variant"),
             Column("quantity", "prose"),
             Column("bias", "number"),
-            Column("95 % of the bias", "number"),
+            Column("its 95 %", "number"),
             Column("scatter", "number"),
             Column("RMS error", "number"),
+            Column("RMS 2D − 3D", "number"),
             Column("largest error", "number"),
             Column("found at"),
         ),
@@ -54,12 +59,27 @@ def table(comparison: Comparison) -> Table | None:
 def _figures(by: dict[str, Row], interval: str) -> tuple[str, ...]:
     """Bias and its interval, scatter, RMS and largest error as text."""
     texts = [percent(by[name].error if name in by else None) for name in _STATISTICS]
-    return texts[0], interval, unsigned(texts[1]), unsigned(texts[2]), texts[3]
+    return (
+        texts[0],
+        interval,
+        unsigned(texts[1]),
+        unsigned(texts[2]),
+        _difference(by.get(_ABSOLUTE)),
+        texts[3],
+    )
+
+
+def _difference(row: Row | None) -> str:
+    """RMS of 2D − 3D in the unit that differences are shown in."""
+    if row is None or row.error is None:
+        return ABSENT
+    unit, factor = DIFFERENCE_UNITS.get(row.unit, (row.unit, 1.0))
+    return with_unit(rounded(factor * row.error, 3), unit)
 
 
 def _interval(comparison: Comparison, variant: str, quantity: str) -> str:
     """Confidence limits of a bias as text."""
     low, high = (comparison.metrics.find(variant, quantity, name) for name in ("bias_low", "bias_high"))
-    if low is None or high is None:
+    if low is None or high is None or low.error is None or high.error is None:
         return ABSENT
-    return f"{percent(low.error)} … {percent(high.error)}"
+    return f"{percent(low.error).removesuffix(f'{SPACE}%')} … {percent(high.error)}"

@@ -89,6 +89,8 @@ class ReferenceSettings(_Settings):
     ----------
     coverage : float, optional
         Share of the cycle that its states cover, 0 … 1.
+    simulation : str, optional
+        "3D" or "2D", where a table holds the results of both.
     cost : SimulationCost, optional
         What it took.
     data_records : tuple of RecordCheck
@@ -96,6 +98,7 @@ class ReferenceSettings(_Settings):
     """
 
     coverage: Share | None = None
+    simulation: str | None = None
     cost: SimulationCost | None = None
     data_records: tuple[RecordCheck, ...] = ()
 

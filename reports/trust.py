@@ -65,8 +65,19 @@ _CHECKS: tuple[tuple[str, Check, str], ...] = (
 )
 
 
-def table(comparison: Comparison) -> Table:
-    """Return the checks, a row each, with a column for each variant."""
+def table(comparison: Comparison) -> Table | None:
+    """Return the checks, a row each, a column a variant; None where a sparse reference allows none."""
+    found = [
+        (title, [check(comparison, name) for name in comparison.variants], meaning)
+        for title, check, meaning in _CHECKS
+    ]
+    rows = tuple(
+        (title, *map(share, values), meaning)
+        for title, values, meaning in found
+        if not comparison.sparse or any(value is not None for value in values)
+    )
+    if not rows:
+        return None
     return Table(
         "trust",
         "How far the 3D side can be trusted: the largest figure of the cycle. A 2D error smaller than these "
@@ -76,10 +87,7 @@ def table(comparison: Comparison) -> Table:
             *(Column(name, "number") for name in comparison.variants),
             Column("what it tells", "prose"),
         ),
-        tuple(
-            (title, *(share(check(comparison, name)) for name in comparison.variants), meaning)
-            for title, check, meaning in _CHECKS
-        ),
+        rows,
     )
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps, style
@@ -144,11 +145,12 @@ def _paint(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array, norm: Norm
     normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     facing = -normal[:, 2] / np.linalg.norm(normal, axis=1)
     order = np.argsort(corners[:, :, 2].mean(axis=1))
+    facets: Any = corners[order, :, :2]  # an array is drawn faster than the list that is declared
     colours = colormaps["viridis"](norm(shade))
     colours[:, :3] *= (0.62 + 0.38 * np.abs(facing))[:, None] * np.where(facing > 0, 1.0, 0.75)[:, None]
     axis.add_collection(
         PolyCollection(
-            list(corners[order, :, :2]),
+            facets,
             facecolors=colours[order],
             edgecolors=colours[order],
             linewidths=0.3,

@@ -13,8 +13,9 @@ from reports.cells import chunks
 from reports.figures import small_multiples
 from reports.load import Comparison
 from reports.metrics import Metrics
-from reports.numbers import SPACE, fixed, listed, signed, with_unit
+from reports.numbers import SPACE, fixed, listed, signed, span, with_unit
 from reports.panels import Curves, PanelRow
+from reports.stated import anywhere, left_out
 from reports.tabular import comma_separated
 from reports.words import column_heading, instant, row_heading, spot, top_to_bottom
 
@@ -77,10 +78,30 @@ def _farthest(comparison: Comparison, lines: Sequence[_Line]) -> str:
     )
 
 
+def _spans(comparison: Comparison, variant: str, lines: Sequence[_Line]) -> str:
+    """Say between what exponents the shown cells are in each model."""
+    found = [
+        row
+        for line in lines
+        for i in comparison.i
+        if (row := comparison.metrics.find(variant, "profile_exponent", "value", i, line.j, line.t_s))
+    ]
+    said = [
+        f"{span(min(values), max(values), 2)} in {name}"
+        for name, values in (
+            ("3D", [row.reference for row in found if row.reference is not None]),
+            ("2D", [row.rom for row in found if row.rom is not None]),
+        )
+        if values
+    ]
+    return " and ".join(said) or "not scored here"
+
+
 def _figures(
     comparison: Comparison, variant: str, key: str, when: str, lines: Sequence[_Line]
 ) -> tuple[Figure, ...]:
     farthest = _farthest(comparison, lines)
+    spans = _spans(comparison, variant, lines)
     figures = []
     for columns in chunks(comparison.i):
         rows = dict.fromkeys(line.j for line in lines)
@@ -90,9 +111,9 @@ def _figures(
                 key=f"{key}-{columns[0]}",
                 caption=f"Variant {variant}, {when}: axial velocity along the ray from the axis "
                 f"(r/R{SPACE}={SPACE}0) to the wall (r/R{SPACE}={SPACE}1) at {cells}; 3D as points, 2D as a "
-                f"line. What to see: where the line runs below the points, 2D is too slow. In these panels "
-                f"{farthest}. γ is the exponent of the 2D model's profile and of the profile closest to 3D: "
-                "2 is a parabola, more is flatter.",
+                f"line. What to see: where the line runs below the points, 2D is too slow; {farthest}. "
+                "γ, the exponent of the 2D model's profile and of the profile closest to 3D (2 is a "
+                f"parabola, more is flatter), is {spans}.",
                 alt=f"Velocity profiles of 3D and 2D, variant {variant}, {when}, a panel for each of "
                 f"{cells}; {farthest}.",
                 drawing=partial(
@@ -142,6 +163,16 @@ def section(comparison: Comparison) -> Section:
     title = "Velocity profiles"
     if not comparison.times:
         return Section("profiles", title, (Paragraph("The case names no instant to show profiles at."),))
+    stated = comparison.profiles["reference_axial_velocity"]
+    shown = [
+        (k, name)
+        for k, name in enumerate(comparison.variants, start=1)
+        if anywhere(stated.sel(variant=name).values)
+    ]
+    line = left_out(comparison, [name for _, name in shown], "velocity profiles")
+    told = (Paragraph(line),) if line else ()
+    if not shown:
+        return Section("profiles", title, told)
     return Section(
         "profiles",
         title,
@@ -153,6 +184,7 @@ def section(comparison: Comparison) -> Section:
                 "Choose a variant and a cell, move the time slider or let it play; point at the curves for "
                 "their values.",
             ),
-            *(_variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)),
+            *told,
+            *(_variant(comparison, k, name) for k, name in shown),
         ),
     )

@@ -93,6 +93,10 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
         f"({limit(row)}) but could not be computed; it counts as not held."
         for row in missing
     ]
+    if comparison.sparse:
+        said.append(
+            "The reference states values at some cells and instants only; elsewhere, nothing is compared."
+        )
     said.append(
         "Each 3D reference is one run on one mesh: how far its values are from those of a finer mesh is not "
         "measured here, so a difference smaller than that error says nothing about the 2D model."
@@ -165,22 +169,33 @@ def _band_table(comparison: Comparison) -> Table:
     )
 
 
+def _other_references(comparison: Comparison) -> str:
+    """Say of which variants the reference is no 3D simulation; "" where all are."""
+    records = comparison.provenance.variants
+    other = [name for name in comparison.variants if records[name].reference.simulation == "2D"]
+    return (
+        f"In {listed(other)} the reference is another 2D model: there, what is headed 3D is that one."
+        if other
+        else ""
+    )
+
+
 def section(comparison: Comparison) -> Section:
     """Build the section."""
     blocks: list[Block] = [Paragraph(headline(comparison), lead=True)]
     warnings = (*trust.doubts(comparison), *comparison.provenance.warnings)
     if warnings:
         blocks.append(Warnings(warnings))
+    told = _other_references(comparison)
+    if told:
+        blocks.append(Paragraph(told))
     sentence = worst(comparison)
     if sentence:
         blocks.append(Paragraph(sentence))
     if comparison.metrics.bands():
         blocks += [Bullets(by_variant(comparison)), _band_table(comparison)]
     blocks += [Paragraph("What this comparison does not tell:"), Bullets(unknowns(comparison))]
-    blocks.append(trust.table(comparison))
-    errors = pooled.table(comparison)
-    if errors:
-        blocks.append(errors)
+    blocks += [table for table in (trust.table(comparison), pooled.table(comparison)) if table]
     blocks.append(
         Interactive(
             "metrics-all",

@@ -86,6 +86,17 @@ def column_heading(comparison: Comparison, i: int) -> str:
     return f"i = {i}, x = {1e3 * x:.4g} mm"
 
 
+def baseline_words(comparison: Comparison) -> str:
+    """Name the variant that changes are counted from, or each of several with the variants it is for."""
+    names = list(dict.fromkeys(comparison.baselines[name] for name in comparison.changed))
+    if len(names) == 1:
+        return names[0]
+    return "; ".join(
+        f"{base} (for {listed(name for name in comparison.changed if comparison.baselines[name] == base)})"
+        for base in names
+    )
+
+
 def row_heading(comparison: Comparison, j: int) -> str:
     """E.g. "j = 25, φ = 184°"."""
     phi = comparison.phi[comparison.j.index(j)]
@@ -93,7 +104,10 @@ def row_heading(comparison: Comparison, j: int) -> str:
 
 
 def instant(name: str, t_s: float) -> str:
-    """E.g. "systole (0.090 s)"."""
+    """E.g. "systole (0.090 s)"; a name that is itself a time stays as it is."""
+    value, _, unit = name.partition(" ")
+    if unit == "s" and value.replace(".", "", 1).isdecimal():
+        return f"{value}{SPACE}s"
     return f"{name} ({t_s:.3f}{SPACE}s)"
 
 

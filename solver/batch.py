@@ -4,7 +4,7 @@ The kernels take all steps between two saved instants in one call and hold no lo
 that threads compute side by side. A case that fails ends alone.
 
 A run here takes the same steps as :func:`solver.case_run.run_case` and gives the same bits, with one
-exception: where nothing depends on φ, one row is computed for all, which differs by round-off.
+exception: where rows stand for others (:mod:`solver.symmetry`), it differs by round-off.
 """
 
 import os

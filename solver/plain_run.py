@@ -1,20 +1,19 @@
-"""A run of the semi-implicit scheme that nothing watches: no diagnostics; one row where rows are alike."""
+"""A run of the semi-implicit scheme that nothing watches: no diagnostics, no row that another stands for."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cases.schema import Case
 from solver.from_case import error_tolerance, initial_state
-from solver.grid import Grid
 from solver.model import Model
 from solver.result import CellHistory
 from solver.schemes.balance import closed_exponents
 from solver.semi_implicit_case import azimuthal_flux_of
 from solver.simulate import equal_steps, implicitness
 from solver.stepping import stepper_of
+from solver.symmetry import all_rows, fewer_rows
 from solver.walk import require_exponents
 
 Floats = NDArray[np.float64]
@@ -30,8 +29,8 @@ def is_plain(case: Case) -> bool:
 def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], None]) -> CellHistory:
     """States of a plain case at its output times (n,), s; without diagnostics.
 
-    The steps are those of :func:`solver.simulate.snapshots`, and so are the bits, except where one row is
-    computed for all: that differs by round-off.
+    The steps are those of :func:`solver.simulate.snapshots`, and so are the bits, except where rows stand for
+    others (:func:`solver.symmetry.fewer_rows`): that differs by round-off.
 
     Parameters
     ----------
@@ -48,7 +47,7 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
     SolverError
         As the march to the steady start and the scheme raise it.
     """
-    grid, computed = model.grid, one_row(model) or model
+    grid, computed = model.grid, fewer_rows(model)
     n_phi = computed.grid.n_phi
     area, pressure = (np.empty((times.size, grid.n_x, n_phi)) for _ in range(2))
     flow = np.empty((times.size, grid.n_x + 1, n_phi))
@@ -67,13 +66,12 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
     through = 0.5 * (flow[:, 1:] + flow[:, :-1])
     exponent = _exponents(computed, area, through)
     require_exponents(times, exponent)
-    cells = (times.size, grid.n_x, grid.n_phi)
     return CellHistory(
         times=times,
-        area=np.broadcast_to(area, cells),
-        flow=np.broadcast_to(through, cells),
-        pressure=np.broadcast_to(pressure, cells),
-        exponent=np.broadcast_to(exponent, cells),
+        area=all_rows(area, grid.n_phi),
+        flow=all_rows(through, grid.n_phi),
+        pressure=all_rows(pressure, grid.n_phi),
+        exponent=all_rows(exponent, grid.n_phi),
         diagnostics={},
         azimuthal_flux=crossing,
     )
@@ -87,21 +85,3 @@ def _exponents(model: Model, area: Floats, flow: Floats) -> Floats:
     rows = (-1, area.shape[-1])
     closed_exponents(area.reshape(rows), flow.reshape(rows), exponent.reshape(rows))
     return exponent
-
-
-def one_row(model: Model) -> Model | None:
-    """One row in place of all, where they are alike and have pressures of their own; None otherwise.
-
-    A wall that is the same all around keeps flow, pressure and radius so, and then neither viscous exchange
-    nor the continuity condition tells rows apart.
-    """
-    stiffness, table = model.stiffness, model.wall_table
-    alike = np.all(stiffness == stiffness[:, :1])
-    if table is not None:
-        alike = alike and np.all(table.values == table.values[:, :1])
-    if model.grid.n_phi == 1 or model.section_wall is not None or not alike:
-        return None
-    if table is not None:
-        table = replace(table, values=np.ascontiguousarray(table.values[:, :1]))
-    grid = Grid(model.grid.length, model.grid.n_x, 1)
-    return replace(model, grid=grid, stiffness=np.ascontiguousarray(stiffness[:, :1]), wall_table=table)

@@ -18,7 +18,7 @@ def judged_value(models: Models, band: Band) -> float | None:
     if band.quantity in CYCLE_QUANTITIES:
         ours, theirs = models.of_cycle(band.quantity)
         return None if theirs is None else pooled(band.statistic, np.array([ours]), np.array([theirs]))
-    if band.quantity not in models.rom or band.quantity not in models.reference:
+    if not models.has(band.quantity):
         return None
     rom, reference = models.pair(band.quantity)
     if "y" in FIELDS[band.quantity].dims:  # on the wall both velocities are zero

@@ -18,6 +18,7 @@ COLUMNS = [
     *("rom", "reference", "error", "unit", "band", "status"),
 ]
 CELL_QUANTITIES = ("pressure", "radius", "mean_velocity", "sector_flow_rate", "profile_exponent")
+SHARE, QUOTIENT = "sector_flow_share", ("sector_flow_rate", "section_flow_rate")  # in no dataset itself
 SECTION_QUANTITIES = ("section_flow_rate", "section_pressure")
 DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")
 
@@ -59,8 +60,15 @@ class Models:
     sparse: bool = False
     stated: Mapping[str, float] = field(default_factory=dict)
 
+    def has(self, quantity: str) -> bool:
+        """Whether both models have a quantity."""
+        parts = QUOTIENT if quantity == SHARE else (quantity,)
+        return all(name in self.rom and name in self.reference for name in parts)
+
     def pair(self, quantity: str) -> tuple[Floats, Floats]:
         """Values of a quantity in both models, float64."""
+        if quantity == SHARE:
+            return sector_share(self.rom), sector_share(self.reference)
         rom, reference = self.rom[quantity], self.reference[quantity]
         return rom.to_numpy().astype(float), reference.to_numpy().astype(float)
 
@@ -85,6 +93,15 @@ class Models:
         has_unit = statistic in DIFFERENCES or "rom" in values or "reference" in values
         unit = FIELDS[quantity].unit if has_unit else "1"
         return Row(self.case, self.variant, quantity, statistic, unit=unit, **values)
+
+
+def sector_share(fields: xr.Dataset) -> Floats:
+    """Flow rate through each sector over its section's mean, (n_t, n_x, n_phi); NaN where that is zero."""
+    sector, section = (fields[name].to_numpy() for name in QUOTIENT)
+    mean = section[..., None].astype(float) / sector.shape[-1]
+    share: Floats = np.full(sector.shape, np.nan)
+    np.divide(sector, mean, out=share, where=mean != 0)
+    return share
 
 
 def models_of(case: str, variant: str, both: xr.Dataset, period: float, **about: Any) -> Models:
@@ -136,7 +153,7 @@ def value_rows(models: Models, cells: tuple[Floats, Floats], times: Floats) -> I
 
 def cycle_error_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row]:
     """Errors over the cycle at each chosen cell."""
-    for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
+    for quantity in (*CELL_QUANTITIES, SHARE, *SECTION_QUANTITIES):
         rom, reference = models.pair(quantity)
         rows_j = [None] if quantity in SECTION_QUANTITIES else list(cells[1])
         for i in cells[0]:
@@ -161,7 +178,7 @@ def pooled(statistic: str, rom: Floats, reference: Floats) -> float | None:
 
 def pooled_rows(models: Models) -> Iterator[Row]:
     """Statistics over all cells and states; for the largest error, where and when it is."""
-    for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
+    for quantity in (*CELL_QUANTITIES, SHARE, *SECTION_QUANTITIES):
         rom, reference = models.pair(quantity)
         for statistic in (*POOLED, *EXTREMES, *DIFFERENCES):
             row = models.row(quantity, statistic, error=models.statistic(statistic, rom, reference))

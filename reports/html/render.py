@@ -14,12 +14,13 @@ from markupsafe import Markup
 from reports.blocks import Figure, Report
 
 _LARGE = 100_000  # bytes
-_SCRIPTS = ("data", "controls", "plots", "curves", "profiles", "maps", "artery", "tables", "metrics", "start")
+_OF_CELLS = ("curves", "profiles", "maps", "artery", "errors")  # pictures of both models on the lumen's cells
 
 
 def render_html(report: Report, drawings: Mapping[str, str]) -> str:
     """Return the HTML text of `report`; texts are escaped, figures (SVG by key) and their data embedded."""
-    scripts = (_library(), _own_scripts())
+    pictures = report.pictures()
+    scripts = (*((_library(),) if pictures else ()), _own_scripts(pictures))
     return (
         environment()
         .get_template("report.html")
@@ -57,10 +58,14 @@ def _library() -> str:
 
 
 @cache
-def _own_scripts() -> str:
+def _own_scripts(pictures: tuple[str, ...]) -> str:
+    """Join what a page needs that has these interactive pictures."""
     folder = files("reports.html").joinpath("scripts")
-    texts = [folder.joinpath(f"{name}.js").read_text(encoding="utf-8") for name in _SCRIPTS]
-    return "\n".join(['"use strict";', "{", *texts, "}"])
+    cells = ("cells",) if set(pictures) & set(_OF_CELLS) else ()
+    names = ("data", "controls", "tables", "plots", *cells, *pictures)
+    texts = [folder.joinpath(f"{name}.js").read_text(encoding="utf-8") for name in (*names, "start")]
+    drawn = f"const PICTURES = {{ {', '.join(pictures)} }};"
+    return "\n".join(['"use strict";', "{", *texts[:-1], drawn, texts[-1], "}"])
 
 
 def _checksum(script: str) -> str:

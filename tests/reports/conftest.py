@@ -1,13 +1,15 @@
 import io
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+import chromium
 import pypdf
 import pytest
 import synthetic_comparison as synthetic
+from playwright.sync_api import Browser, sync_playwright
 
 from reports import write_reports
 
@@ -22,6 +24,18 @@ def pdf_text() -> Callable[[Path], str]:
         return re.sub(r"\s+", " ", " ".join(page.extract_text() for page in pages))
 
     return lambda path: text(path.read_bytes())
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """Chromium that draws WebGL by software."""
+    found = chromium.find()
+    with sync_playwright() as playwright:
+        launched = playwright.chromium.launch(
+            executable_path=found.executable, args=chromium.ARGUMENTS, env=found.environment()
+        )
+        yield launched
+        launched.close()
 
 
 @pytest.fixture(scope="session")

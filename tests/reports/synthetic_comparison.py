@@ -23,6 +23,7 @@ UNITS = {
     "profile_exponent": "1",
     "sector_flow_rate": "m3 s-1",
 }
+EXPONENTS = np.geomspace(0.5, 50.0, 121)
 CASE_YAML = "name: synthetic\ngeometry: {length: 15 mm, radius: 2.5 mm}\nwall: {youngs_modulus: 0.6 MPa}\n"
 
 
@@ -172,9 +173,19 @@ def dataset(setup: Setup, arrays: dict[str, np.ndarray]) -> xr.Dataset:
         if key not in rays
     }
     times = [float(arrays["time"][k]) for k in states(setup, arrays)]
+    columns, rows = np.array(setup.i) - 1, np.array(setup.j) - 1
+    shown = ("variant", "compare_time", "compare_x", "compare_phi", "exponent")
+    variables["reference_profile_error_curve"] = (shown, fit_errors(setup, arrays, EXPONENTS))
     return xr.Dataset(
         variables,
-        coords={"variant": list(setup.variants), **{k: arrays[k] for k in ("time", "x", "phi", "y")}},
+        coords={
+            "variant": list(setup.variants),
+            **{k: arrays[k] for k in ("time", "x", "phi", "y")},
+            "compare_time": times,
+            "compare_x": arrays["x"][columns],
+            "compare_phi": arrays["phi"][rows],
+            "exponent": EXPONENTS,
+        },
         attrs={
             "case": "synthetic",
             "title": setup.title,
@@ -188,6 +199,42 @@ def dataset(setup: Setup, arrays: dict[str, np.ndarray]) -> xr.Dataset:
             "Conventions": "CF-1.11",
         },
     )
+
+
+def fit_errors(setup: Setup, arrays: dict[str, np.ndarray], exponents: np.ndarray) -> np.ndarray:
+    """Relative error of the closest profile with each exponent at the shown cells and named instants."""
+    at = np.ix_(
+        range(len(setup.variants)), states(setup, arrays), np.array(setup.i) - 1, np.array(setup.j) - 1
+    )
+    v = arrays["reference_axial_velocity"][at].astype(float)
+    s = 1 - arrays["y"] ** exponents[:, None]
+    rest = 1 - (v @ s.T) ** 2 / (np.sum(s**2, axis=-1) * np.sum(v**2, axis=-1, keepdims=True))
+    return np.sqrt(np.clip(rest, 0.0, None))
+
+
+def _profile_error_rows(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
+    """The error of the closest profile, and with the 2D model's own exponent, at the shown cells."""
+    rows = []
+    for v, variant in enumerate(setup.variants):
+        for k, state in enumerate(states(setup, arrays)):
+            for a, i in enumerate(setup.i):
+                for b, j in enumerate(setup.j):
+                    own = arrays["rom_profile_exponent"][v][state, i - 1, j - 1]
+                    best = fit_errors(setup, arrays, EXPONENTS)[v, k, a, b].min()
+                    rows.append(
+                        _row(
+                            variant,
+                            "profile_error",
+                            "value",
+                            "1",
+                            i=i,
+                            j=j,
+                            t_s=float(arrays["time"][state]),
+                            reference=float(best),
+                            rom=float(fit_errors(setup, arrays, np.array([own]))[v, k, a, b, 0]),
+                        )
+                    )
+    return rows
 
 
 def states(setup: Setup, arrays: dict[str, np.ndarray]) -> list[int]:
@@ -373,7 +420,7 @@ def _check_rows(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, A
 def metrics(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
     """Rows as metrics.json holds them, those of the bands last."""
     rows = _cell_rows(setup, arrays) + _pooled_rows(setup, arrays)
-    rows += _cycle_rows(setup, arrays) + _check_rows(setup, arrays)
+    rows += _cycle_rows(setup, arrays) + _check_rows(setup, arrays) + _profile_error_rows(setup, arrays)
     judged = []
     for band in setup.bands:
         for variant in (name for name in band["variants"] if name in setup.variants):

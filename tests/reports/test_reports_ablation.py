@@ -33,11 +33,27 @@ def test_without_rows_there_is_no_section(tmp_path):
 
 def test_a_row_a_model(tmp_path):
     section = written(tmp_path, ROW, {**ROW, "model": "other", "failure": "the membrane buckles"})
-    first, second = section.blocks[1].rows
-    assert first[:4] == ("local", "membrane wall, section pressure", "+0.63\u00a0%", "−1.78\u00a0%")
-    assert first[-2:] == ("—", "0.50")
+    table = section.blocks[-1]
+    first, second = table.rows
+    assert first[:4] == ("local", "membrane wall, section pressure", "0.63\u00a0%", "−1.78\u00a0%")
+    assert first[-2:] == ("−3.50\u00a0%", "0.50")
+    assert "thesis's sectors" not in {column.group for column in table.columns}  # none was scored
     assert second[1] == "other (failed: the membrane buckles)"
-    assert len(first) == len(second) == len(section.blocks[1].columns)
+    assert len(first) == len(second) == len(table.columns)
+
+
+def test_the_whole_step_is_said_with_its_numbers(tmp_path):
+    thin = {**ROW, "model": "thin wall, row pressure", "radius_rms": 0.0229, "sector_share_rms": 0.0316}
+    (said,) = written(tmp_path, thin, ROW).blocks[1].items
+    assert said.replace("\u00a0", " ") == (
+        "local: with membrane wall, section pressure instead of thin wall, row pressure the RMS error of the "
+        "lumen radius is 0.63 % instead of 2.29 % and of a sector's share of the flow is 0.92 % instead of "
+        "3.16 %."
+    )
+
+
+def test_a_single_model_buys_nothing(tmp_path):
+    assert len(written(tmp_path, ROW).blocks) == 2
 
 
 @pytest.mark.parametrize("change", [{"radius_rms": "small"}, {"model": 3}])

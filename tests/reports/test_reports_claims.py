@@ -14,7 +14,7 @@ import typst
 import xarray as xr
 
 from cases.fields import FIELDS
-from reports import velocity
+from reports import cycle
 from reports.content import report
 from reports.drawn import draw
 from reports.load import load
@@ -141,12 +141,160 @@ def test_the_verdict_is_that_of_the_bands(finished: Finished, pdf_text: Callable
     assert "whether 3D had become periodic by then is not measured" in text
 
 
-def test_every_profile_figure_names_both_exponents(finished: Finished) -> None:
-    section = velocity.section(load(finished[0]))
-    figures = [block for part in section.blocks[1:] for block in part.blocks]  # type: ignore[union-attr]
-    assert figures
-    for figure in figures:
-        assert "2 is a parabola" in figure.caption
+def _shown(caption: str, variant: str, rows: list[dict[str, Any]], quantity: str) -> list[dict[str, Any]]:
+    """Rows of metrics.json at the cells and instants that a caption names."""
+    named = {float(t) for t in re.findall(r"\(([\d.]+) s\)", caption)}
+    cells = re.search(r"at cells i = ([\d, and]+?), j = ([\d, and]+)", caption)
+    assert cells
+    i, j = ({int(n) for n in re.findall(r"\d+", words)} for words in cells.groups())
+    return [
+        row
+        for row in rows
+        if (row["variant"], row["quantity"], row["statistic"]) == (variant, quantity, "value")
+        and row["i"] in i
+        and row["j"] in j
+        and any(abs(row["t_s"] - t) < 6e-4 for t in named)
+    ]
+
+
+def _span(text: str) -> list[float]:
+    low, _, high = text.partition(" … ")
+    return [float(low), float(high or low)]
+
+
+def test_the_profiles_claims_are_those_of_the_metrics_and_the_models(
+    captions: list[str], data: xr.Dataset, finished: Finished
+) -> None:
+    found = [caption for caption in captions if "axial velocity along the ray" in caption]
+    assert len(found) > len(synthetic.VARIANTS)
+    for caption in found:
+        variant = caption.split()[1].rstrip(",")
+        rows = _shown(caption, variant, finished[1], "profile_exponent")
+        said = re.search(r"is ([\d.]+(?: … [\d.]+)?) in 3D and ([\d.]+(?: … [\d.]+)?) in 2D", caption)
+        assert said
+        for text, model in zip(said.groups(), ("reference", "rom"), strict=True):
+            values = [row[model] for row in rows]
+            assert _span(text) == pytest.approx([min(values), max(values)], abs=5.1e-3)
+        farthest = re.search(
+            r"2D − 3D = ([+−][\d.]+) (cm/s|mm/s), at r/R = ([\d.]+) \(i = (\d+), j = (\d+), t = ([\d.]+) s\)",
+            caption,
+        )
+        assert farthest
+        value, unit, y, i, j, t = farthest.groups()
+        local = data.sel(variant=variant)
+        ray = (local["rom_axial_velocity"] - local["reference_axial_velocity"]).isel(
+            x=int(i) - 1, phi=int(j) - 1
+        )
+        there = ray.sel(time=float(t), y=float(y), method="nearest")
+        factor = {"cm/s": 1e2, "mm/s": 1e3}[unit]
+        assert _number(value) == pytest.approx(factor * float(there), rel=6e-3)
+        places = [(row["t_s"], row["i"] - 1, row["j"] - 1) for row in rows]
+        all_rays = local["rom_axial_velocity"] - local["reference_axial_velocity"]
+        largest = max(
+            float(np.abs(all_rays.sel(time=t_s, method="nearest").isel(x=a, phi=b)).max())
+            for t_s, a, b in places
+        )
+        assert abs(_number(value)) == pytest.approx(factor * largest, rel=6e-3)
+
+
+def test_the_error_curves_claims_are_those_of_the_metrics(
+    captions: list[str], data: xr.Dataset, finished: Finished
+) -> None:
+    found = [caption for caption in captions if "relative error of the profile with exponent" in caption]
+    assert len(found) == len(synthetic.VARIANTS)
+    for caption in found:
+        variant = caption.split()[1].rstrip(",")
+        rows = _shown(caption, variant, finished[1], "profile_error")
+        off = re.search(r"is off 3D by ([\d.]+) % to ([\d.]+) %", caption)
+        assert off
+        best = [100 * row["reference"] for row in rows]
+        assert [float(text) for text in off.groups()] == pytest.approx([min(best), max(best)], abs=5.1e-3)
+        most = re.search(
+            r"costs most at i = (\d+), j = (\d+), t = ([\d.]+) s: an error of ([\d.]+) % where ([\d.]+) %",
+            caption,
+        )
+        assert most
+        worst = max(rows, key=lambda row: row["rom"] - row["reference"])
+        assert (int(most[1]), int(most[2])) == (worst["i"], worst["j"])
+        assert float(most[4]) == pytest.approx(100 * worst["rom"], abs=5.1e-3)
+        assert float(most[5]) == pytest.approx(100 * worst["reference"], abs=5.1e-3)
+        curves = data["reference_profile_error_curve"].sel(variant=variant)
+        assert 100 * float(curves.min()) == pytest.approx(min(best), abs=0.05)
+
+
+def test_the_curves_say_how_far_off_the_whole_is_and_how(
+    captions: list[str], data: xr.Dataset, finished: Finished
+) -> None:
+    found = [caption for caption in captions if "2D − 3D below" in caption]
+    assert len(found) > len(synthetic.VARIANTS)
+    kinds = set()
+    for caption in found:
+        variant = caption.split()[1].rstrip(":")
+        whole = caption.partition("RMS error over all cells and states: ")[2]
+        stated = re.findall(r"(?:^|, | and )([a-z][a-z –-]*?) ([\d.]+) %", whole)
+        assert stated
+        for label, text in stated:
+            (row,) = (
+                row
+                for row in finished[1]
+                if (row["variant"], row["quantity"], row["statistic"], row["status"])
+                == (variant, LABELS[label].name, "rms_error", "")
+            )
+            assert float(text) == pytest.approx(100 * row["error"], abs=5.1e-3)
+        for claim in re.finditer(
+            CLAIM.pattern + r", there mostly (?P<kind>a constant offset|a change over "
+            r"the cycle) of (?P<mean>[+−]?[\d.]+) ± (?P<spread>[\d.]+)",
+            caption,
+        ):
+            field = LABELS[next(label for label in LABELS if claim["label"].strip().endswith(label))]
+            at = {"x": int(claim["i"]) - 1, **({"phi": int(claim["j"]) - 1} if claim["j"] else {})}
+            local = data.sel(variant=variant).isel(at)
+            difference = DIFFERENCE_UNITS[field.unit][1] * (
+                local[f"rom_{field.name}"] - local[f"reference_{field.name}"]
+            )
+            mean, spread = float(difference.mean()), float(difference.std())
+            assert _number(claim["mean"]) == pytest.approx(mean, rel=6e-3)
+            assert float(claim["spread"]) == pytest.approx(spread, rel=6e-2)
+            assert (claim["kind"] == "a constant offset") == (abs(mean) > 2 * spread)
+            kinds.add(claim["kind"])
+    assert kinds == {"a constant offset"}
+
+
+@pytest.mark.parametrize(
+    ("difference", "said"),
+    [
+        ([4.0, 5.0, 6.0], "a constant offset of +5.00 ± 0.82 Pa"),
+        ([-4.0, 0.0, 5.0], "a change over the cycle of +0.333 ± 3.7 Pa"),
+        ([4.0, np.nan, 6.0], ""),
+    ],
+)
+def test_a_difference_is_an_offset_or_a_change(difference: list[float], said: str) -> None:
+    words = cycle._kind(np.array(difference), "Pa", 1.0).replace("\u00a0", " ")
+    assert words == (f", there mostly {said}" if said else "")
+
+
+def test_the_maps_say_how_large_differences_are_in_and_beside_the_calcification(
+    captions: list[str], data: xr.Dataset
+) -> None:
+    state = int(np.abs(data["time"].values - data.attrs["compare_times_s"][0]).argmin())
+    checked = 0
+    for caption in captions:
+        words = caption.partition("Mean size of the difference in calcified cells and elsewhere: ")[2]
+        if not words:
+            continue
+        now = data.sel(variant=caption.split()[1].rstrip(",")).isel(time=state)
+        inside = now["calcified"].values > 0
+        for label, within, beside in re.findall(
+            r"([a-z][a-z –-]*?) ([\d.]+)[^;.\d]*? and ([\d.]+)", words.partition(" Framed")[0]
+        ):
+            field = LABELS[label.strip()]
+            sizes = DIFFERENCE_UNITS[field.unit][1] * np.abs(
+                now[f"rom_{field.name}"].values - now[f"reference_{field.name}"].values
+            )
+            assert float(within) == pytest.approx(sizes[inside].mean(), rel=6e-2)
+            assert float(beside) == pytest.approx(sizes[~inside].mean(), rel=6e-2)
+            checked += 1
+    assert checked == 2 * 4
 
 
 def test_figures_and_tables_are_numbered_and_listed_in_the_contents(

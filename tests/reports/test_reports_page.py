@@ -2,53 +2,21 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import chromium
 import numpy as np
 import pytest
 import xarray as xr
-from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Browser, Page, sync_playwright
+from opened_page import NARROW, WIDE, Opened, open_page, overflowing, serious_defects
+from playwright.sync_api import Browser, Page
 
 Finished = tuple[Path, list[dict[str, Any]]]
-WIDE, NARROW = {"width": 1400, "height": 900}, {"width": 400, "height": 800}
-PICTURES = ("curves", "profiles", "maps", "artery", "metrics")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    """Chromium that draws WebGL by software."""
-    found = chromium.find()
-    with sync_playwright() as playwright:
-        launched = playwright.chromium.launch(
-            executable_path=found.executable, args=chromium.ARGUMENTS, env=found.environment()
-        )
-        yield launched
-        launched.close()
-
-
-@dataclass
-class Opened:
-    """A page, and what it said and asked for while it was open."""
-
-    page: Page
-    console: list[str] = field(default_factory=list)
-    requests: list[str] = field(default_factory=list)
+PICTURES = ("curves", "profiles", "errors", "maps", "artery", "metrics")
 
 
 def _open(browser: Browser, directory: Path, **how: Any) -> Opened:
-    context = browser.new_context(**how)
-    opened = Opened(context.new_page())
-    opened.page.on("console", lambda m: opened.console.append(m.text) if m.type == "error" else None)
-    opened.page.on("pageerror", lambda error: opened.console.append(str(error)))
-    opened.page.on("request", lambda request: opened.requests.append(request.url))
-    opened.page.goto((directory / "report.html").as_uri())
-    if how.get("java_script_enabled", True):
-        opened.page.wait_for_selector("html[data-scripts=ready]", state="attached")
-    return opened
+    return open_page(browser, directory / "report.html", **how)
 
 
 def _draw_everything(page: Page) -> None:
@@ -66,19 +34,6 @@ def opened(browser: Browser, finished: Finished) -> Iterator[Opened]:
     _draw_everything(one.page)
     yield one
     one.page.context.close()
-
-
-def _overflowing(page: Page) -> list[str]:
-    """Elements that reach beyond the page's edge, or whose content has to be scrolled sideways."""
-    found: list[str] = page.evaluate(
-        """() => [...document.querySelectorAll("body *")]
-            .filter((e) => e.checkVisibility() && !e.closest("dialog, svg, .plot, .unseen"))
-            .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
-                || (getComputedStyle(e).overflowX !== "visible" && e.scrollWidth > e.clientWidth + 1))
-            .map((e) => `${e.tagName} ${e.id} ${e.className} ${e.textContent.slice(0, 40)}`)"""
-    )
-    wide = page.evaluate("document.documentElement.scrollWidth > innerWidth")
-    return found + (["the page itself"] if wide else [])
 
 
 def test_it_opens_with_its_own_security_policy_and_asks_for_nothing(
@@ -102,12 +57,8 @@ def test_nothing_overflows_and_axe_finds_nothing_serious(
 ) -> None:
     one = _open(browser, finished[0], viewport=size, color_scheme=scheme, bypass_csp=True)
     _draw_everything(one.page)
-    assert _overflowing(one.page) == []
-    violations = Axe().run(one.page).response["violations"]
-    serious = [
-        (v["id"], v["nodes"][0]["html"][:200]) for v in violations if v["impact"] in ("serious", "critical")
-    ]
-    assert serious == []
+    assert overflowing(one.page) == []
+    assert serious_defects(one.page) == []
     assert one.console == []
     one.page.context.close()
 
@@ -191,7 +142,10 @@ def test_the_time_slider_shows_the_maps_of_that_state(opened: Opened, finished: 
 
 def test_pointing_at_curves_and_maps_tells_values(opened: Opened) -> None:
     page = opened.page
-    for key, words in (("curves-anywhere", ("3D", "2D", "mm")), ("maps-anytime", ("x = ", "φ = ", "mm"))):
+    for key, words in (
+        ("curves-anywhere", ("3D", "2D", "mm")),
+        ("maps-anytime", ("x = ", "φ = ", "mm")),
+    ):
         page.locator(f"#{key} .plot").scroll_into_view_if_needed()
         box = page.locator(f"#{key} .nsewdrag").first.bounding_box()
         assert box is not None
@@ -200,6 +154,30 @@ def test_pointing_at_curves_and_maps_tells_values(opened: Opened) -> None:
         page.wait_for_selector(f"#{key} .hoverlayer .hovertext, #{key} .hoverlayer .legend")
         said = page.locator(f"#{key} .hoverlayer").text_content() or ""
         assert all(word in said for word in words), said
+
+
+def test_the_error_over_gamma_is_the_comparisons_own(opened: Opened, finished: Finished) -> None:
+    page, host = opened.page, opened.page.locator("#exponents-anywhere")
+    host.get_by_label("variant", exact=True).select_option(label="local")
+    host.get_by_label("time", exact=True).select_option(index=1)
+    host.get_by_label("cell i").select_option(label="6")
+    host.get_by_label("row j").select_option(label="4")
+    page.wait_for_function(
+        "document.querySelector('#exponents-anywhere .readout').textContent"
+        ".startsWith('Variant local, i = 6, j = 4')"
+    )
+    page.wait_for_timeout(200)
+    plot = "document.querySelector('#exponents-anywhere .plot')"
+    x, y = page.evaluate(f"[[...{plot}.data[0].x], [...{plot}.data[0].y]]")
+    with xr.open_dataset(finished[0] / "comparison.nc", decode_times=False) as data:
+        curve = (
+            data["reference_profile_error_curve"]
+            .sel(variant="local")
+            .isel(compare_time=1, compare_x=1, compare_phi=1)
+        )
+        np.testing.assert_allclose(x, curve["exponent"], rtol=1e-5)
+        np.testing.assert_allclose(y, 100 * curve, atol=2e-3)
+    assert "error %{y" in page.evaluate(f"{plot}.data[0].hovertemplate")
 
 
 def test_curves_are_those_of_the_chosen_cell(opened: Opened, finished: Finished) -> None:

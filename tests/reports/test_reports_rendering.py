@@ -11,7 +11,7 @@ import pypdf
 import pytest
 import synthetic_comparison as synthetic
 
-from reports import build, write_reports
+from reports import pages, write_reports
 from reports.__main__ import main
 
 Rows = list[dict[str, Any]]
@@ -168,7 +168,7 @@ def test_a_failure_leaves_earlier_reports_as_they_were(
     def broken(*_: object) -> bytes:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(build, "render_pdf", broken)
+    monkeypatch.setattr(pages, "render_pdf", broken)
     with pytest.raises(KeyboardInterrupt):
         write_reports(tmp_path)
     assert [(tmp_path / name).read_text() for name in ("report.html", "report.pdf")] == ["earlier"] * 2

@@ -1,14 +1,20 @@
 """A reference that states a few cells only: what cannot be drawn is said."""
 
+import json
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports import artery
-from reports.blocks import Paragraph
+from reports import artery, verdict
+from reports.blocks import Paragraph, Subsection, Table
+from reports.content import report
+from reports.load import Comparison, load
 from reports.page_data import _artery
+from reports.stated import left_out
 
 
 def comparison(reference):
@@ -32,3 +38,62 @@ def test_an_artery_without_all_radii_is_not_drawn(missing):
 
 def test_a_whole_artery_has_a_shape():
     assert artery.has_shape(comparison(np.ones((1, 2, 3, 4))))
+
+
+@pytest.fixture
+def tables(tmp_path: Path) -> Comparison:
+    """A comparison whose reference states section flows at the shown cells and instants, and no more."""
+    setup = synthetic.Setup(variants=("none", "axisymmetric"), i=(1, 6), j=(1, 4))
+    arrays = synthetic.fields(setup)
+    rows = synthetic.metrics(setup, arrays)
+    dataset = synthetic.dataset(setup, arrays)
+    stated = dataset["reference_section_flow_rate"].copy()
+    for name in [str(name) for name in dataset.data_vars if str(name).startswith("reference_")]:
+        dataset[name] = dataset[name].astype(float) * np.nan
+    states = synthetic.states(setup, arrays)
+    dataset["reference_section_flow_rate"][:, states, [0, 5]] = stated[:, states, [0, 5]]
+    dataset.attrs |= {"sparse_reference": 1, "baselines": json.dumps({"axisymmetric": "none"})}
+    dataset.to_netcdf(tmp_path / "comparison.nc", engine="netcdf4")
+    for row in rows:
+        if row["quantity"] != "section_flow_rate" or row["statistic"] == "ratio":
+            row.update(reference=None, error=None, status="MISSING" if row["status"] else "")
+    (tmp_path / "metrics.json").write_text(json.dumps(rows))
+    (tmp_path / "provenance.json").write_text(json.dumps(synthetic.provenance(setup)))
+    return load(tmp_path)
+
+
+def test_only_what_is_stated_is_drawn_and_the_rest_said_in_a_line(tables: Comparison) -> None:
+    content = report(tables)
+    assert {figure.key for figure in content.figures()} == {"cycle-1-all-1", "cycle-2-all-1"}
+    for figure in content.figures():
+        assert "flow rate through the section" in figure.caption
+        assert "pressure" not in figure.caption
+        assert "<svg" in figure.drawing()
+    for key in ("profiles", "exponents", "maps", "artery"):
+        (section,) = (section for section in content.sections if section.key == key)
+        last = section.blocks[-1]
+        assert isinstance(last, Paragraph)
+        assert "states no" in last.text or "does not state" in last.text
+
+
+def test_tables_leave_out_lines_without_a_reference(tables: Comparison) -> None:
+    found = {
+        block.key: block
+        for section in report(tables).sections
+        for part in section.blocks
+        for block in (part.blocks if isinstance(part, Subsection) else (part,))
+        if isinstance(block, Table)
+    }
+    assert {row[1] for row in found["pooled"].rows} == {"flow rate through the section"}
+    assert "sector-flow" not in found
+    assert "change-radius" not in found
+    assert len(found["section-flow"].rows) == 6
+
+
+def test_the_reader_is_told_that_the_reference_is_sparse(tables: Comparison) -> None:
+    assert any("some cells and instants only" in said for said in verdict.unknowns(tables))
+
+
+def test_one_variant_without_a_field_is_named(tables: Comparison) -> None:
+    assert left_out(tables, ["none"], "profiles").startswith("Of axisymmetric the reference states no")
+    assert left_out(tables, tables.variants, "profiles") == ""

@@ -12,7 +12,12 @@ def row(statistic, error, rom=None, reference=None, variant="local"):
 
 def comparison(*rows):
     index = {(r.variant, r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in rows}
-    return SimpleNamespace(metrics=Metrics(rows, index), variants=("none", "local"), baseline="none")
+    return SimpleNamespace(
+        metrics=Metrics(rows, index),
+        variants=("none", "local"),
+        baselines={"local": "none"},
+        changed=("local",),
+    )
 
 
 def plain(line):
@@ -20,15 +25,22 @@ def plain(line):
 
 
 def test_a_bias_stands_beside_its_interval():
-    rows = (row("bias", 0.0078), row("scatter", 0.02), row("bias_low", 0.0074), row("bias_high", 0.0083))
+    rows = (
+        row("bias", 0.0078),
+        row("scatter", 0.02),
+        row("bias_low", 0.0074),
+        row("bias_high", 0.0083),
+        row("rms_difference", 6.4e-6),
+    )
     table = pooled.table(comparison(*rows))
     assert plain(table.rows[0]) == [
         "local",
         "lumen radius",
         "+0.78 %",
-        "+0.74 % … +0.83 %",
+        "+0.74 … +0.83 %",
         "2.00 %",
         "—",
+        "6.40 μm",
         "—",
         "—",
     ]
@@ -43,9 +55,7 @@ def test_a_bias_without_an_interval_says_so():
 def test_changes_are_shown_with_their_sizes_and_distance():
     apart = row("change_rms", 0.869, rom=75.0e-6, reference=64.1e-6)
     table = change_apart.table(comparison(apart, row("change_rms", 0.0, variant="none")), ("local",))
-    assert [plain(line) for line in table.rows] == [
-        ["local", "lumen radius", "0.0641 mm", "0.0750 mm", "87 %"]
-    ]
+    assert [plain(line) for line in table.rows] == [["local", "lumen radius", "64.1 μm", "75.0 μm", "87 %"]]
 
 
 def test_without_changes_there_is_no_table():

@@ -28,7 +28,7 @@ from validation.metrics import COLUMNS, Row, to_frame
 AFFECTED = {
     "pressure": {"pressure"},
     "radius": {"radius", "largest_radius", "least_radius", "largest_radius_variation"},
-    "section_flow_rate": {"section_flow_rate"},
+    "section_flow_rate": {"section_flow_rate", "sector_flow_share"},
     "section_pressure": {
         "section_pressure",
         "systolic_pressure",
@@ -38,7 +38,7 @@ AFFECTED = {
     },
     "mean_velocity": {"mean_velocity"},
     "profile_exponent": {"profile_exponent"},
-    "sector_flow_rate": {"sector_flow_rate"},
+    "sector_flow_rate": {"sector_flow_rate", "sector_flow_share"},
     "axial_dominance_radial": {"axial_dominance_radial"},
 }
 
@@ -76,14 +76,15 @@ def test_a_false_reference_changes_its_own_rows_and_no_others(quantity):
 
 @pytest.mark.parametrize("quantity", sorted(AFFECTED.keys() - {"axial_dominance_radial"}))
 def test_a_reference_false_by_a_factor_has_just_this_error(quantity):
-    expected = 1 / 1.05 - 1
     for row in rows_of(scaled(equal_models(), quantity, 1.05)):
         if row.error is None or row.statistic.endswith("_difference") or row.statistic == "largest":
             continue
+        inverse = row.quantity == "sector_flow_share" and quantity == "section_flow_rate"
+        expected = 1.05 - 1 if inverse else 1 / 1.05 - 1
         if row.quantity not in AFFECTED[quantity] or row.statistic == "scatter":
             assert row.error == pytest.approx(0.0, abs=1e-12), row
         elif row.statistic == "rms_error":
-            assert row.error == pytest.approx(-expected, rel=1e-9), row
+            assert row.error == pytest.approx(abs(expected), rel=1e-9), row
         else:
             assert row.error == pytest.approx(expected, rel=1e-9), row
 

@@ -23,16 +23,6 @@ async function inflate({ shape, low, step, data }) {
   return Float64Array.from(whole, (value) => (value === 65535 ? NaN : low + step * value));
 }
 
-async function bothModels(field, variant) {
-  const [reference, rom] = await Promise.all([unpack(field.reference[variant]), unpack(field.rom[variant])]);
-  return { reference, rom };
-}
-
-const count = { time: page.time.length, x: page.x.length, phi: page.phi.length, y: page.y.length };
-const isOnCells = (field) => field.reference[0].shape.length === 3;
-const cellAt = (state, i, j) => (state * count.x + i) * count.phi + j;
-const sectionAt = (state, i) => state * count.x + i;
-
 function number(value, digits = 4) {
   if (value === null) return "—";
   if (!Number.isFinite(value)) return "> 100 (plug flow)";
@@ -40,7 +30,3 @@ function number(value, digits = 4) {
 }
 const signed = (value, digits = 3) => (value > 0 ? "+" : "") + number(value, digits);
 const withUnit = (text, unit) => (unit ? `${text}\u00a0${unit}` : text);
-const moment = (state) => {
-  const named = page.named.find((entry) => entry.state === state);
-  return `t = ${page.time[state].toFixed(3)} s${named ? `, ${named.name}` : ""}`;
-};

@@ -24,9 +24,8 @@ function enlargeable(figure) {
   figure.querySelector(".card").after(open);
 }
 
-const KINDS = { curves, profiles, maps, artery, metrics };
 themes();
 document.querySelectorAll("main table").forEach((table) => { if (table.tBodies[0].rows.length > 1) filterable(table, sortable(table)); });
 document.querySelectorAll("figure").forEach(enlargeable);
-document.querySelectorAll("[data-interactive]").forEach((host) => KINDS[host.dataset.interactive](host));
+document.querySelectorAll("[data-interactive]").forEach((host) => PICTURES[host.dataset.interactive](host));
 document.documentElement.dataset.scripts = "ready";

@@ -1,0 +1,28 @@
+"""Content as files: both renderings, each written whole or not at all."""
+
+import os
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from reports.blocks import Report
+from reports.html import render_html
+from reports.pdf import render_pdf
+
+
+def rendered(content: Report, drawings: Mapping[str, str]) -> tuple[bytes, bytes]:
+    """Return a report as HTML and as PDF."""
+    with ThreadPoolExecutor(max_workers=1) as pool:  # typst works outside the interpreter's lock
+        pdf = pool.submit(render_pdf, content, drawings)
+        return render_html(content, drawings).encode(), pdf.result()
+
+
+def write_pages(pages: Mapping[Path, bytes]) -> None:
+    """Write each page whole or not at all: a reader never finds half a file."""
+    for path, data in pages.items():
+        partial = path.with_name(f".{path.name}.{os.getpid()}")
+        try:
+            partial.write_bytes(data)
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)

@@ -1,0 +1,99 @@
+"""The page of a sweep, written beside its samples."""
+
+from collections import Counter
+from pathlib import Path
+
+from reports.blocks import Report
+from reports.drawn import draw
+from reports.gallery import RANKS, Entry
+from reports.numbers import counted, listed
+from reports.pages import rendered, write_pages
+from reports.sweep.account import failures_section, headline, provenance_section, status, verdict_section
+from reports.sweep.held import all_held, sentence
+from reports.sweep.indices import indices_section
+from reports.sweep.load import STUDY, Sweep, load_sweep
+from reports.sweep.page_data import page_data
+from reports.sweep.responses import held_section, responses_section
+from reports.sweep.words import DESIGNS
+
+HTML, PDF = "index.html", "index.pdf"
+
+
+def is_sweep(directory: Path) -> bool:
+    """Whether a folder is that of a sweep."""
+    return (directory / STUDY).is_file()
+
+
+def write_sweep_page(directory: Path) -> tuple[Path, Path]:
+    """Write index.html and index.pdf of a sweep, finished or not, into its folder.
+
+    Parameters
+    ----------
+    directory : Path
+        Holds study.json and samples/.
+
+    Returns
+    -------
+    tuple of Path
+        index.html and index.pdf.
+
+    Raises
+    ------
+    ReportError
+        If the folder is not that of a sweep with at least one sample.
+    """
+    write_sweep_entry(directory)
+    return directory / HTML, directory / PDF
+
+
+def write_sweep_entry(directory: Path) -> Entry:
+    """Write the page of a sweep as :func:`write_sweep_page` does, and return what a gallery shows of it."""
+    sweep = load_sweep(directory)
+    content = sweep_report(sweep)
+    drawings = draw({figure.key: figure.drawing for figure in content.figures()}, None)
+    html, pdf = rendered(content, drawings)
+    write_pages({directory / HTML: html, directory / PDF: pdf})
+    bands = all_held(sweep)
+    counts = Counter(str(status(found)) for found in bands)
+    picture = next((figure for figure in content.figures() if figure.key.startswith("held-")), None)
+    return Entry(
+        directory,
+        content.title,
+        content.identity,
+        headline(sweep, bands),
+        tuple(sentence(found, sweep.study.parameters) for found in bands),
+        tuple((word, counts[word]) for word in RANKS if counts[word]),
+        (
+            min((RANKS[status(found)] for found in bands), default=len(RANKS)),
+            -max((found.furthest for found in bands), default=0.0),
+        ),
+        drawings[picture.key] if picture else "",
+        picture.alt if picture else "",
+        HTML,
+        PDF,
+    )
+
+
+def sweep_report(sweep: Sweep) -> Report:
+    """Compose the page of a sweep."""
+    study = sweep.study
+    bands = all_held(sweep)
+    commit = f"commit {study.git_commit[:9]}" if study.git_commit else "no commit"
+    design = DESIGNS.get(study.design.kind, study.design.kind)
+    return Report(
+        title=study.title or study.name,
+        subtitle=f"{counted(study.counts.total, 'run')} of the two-dimensional reduced-order model around "
+        f"{study.base_case} ({listed(sweep.variants)}), over {listed(p.label for p in study.parameters)}; "
+        f"design: {design}.",
+        identity=" · ".join((study.name, commit, study.created[:10])),
+        created=study.created,
+        sections=(
+            verdict_section(sweep, bands),
+            held_section(sweep, bands),
+            responses_section(sweep),
+            indices_section(sweep),
+            failures_section(sweep),
+            provenance_section(sweep),
+        ),
+        data=page_data(sweep),
+    )

@@ -1,0 +1,43 @@
+"""What the page's picture of the samples is drawn from."""
+
+import json
+
+import numpy as np
+import pandas as pd
+
+from reports.sweep.load import OK, Sweep, shown
+from reports.sweep.responses import logarithmic
+from reports.sweep.study_file import Output, Parameter
+
+MOST_SAMPLES = 5000  # points that a browser still moves at ease
+
+
+def page_data(sweep: Sweep) -> str:
+    """Return the JSON for the page's scripts: display units, every n-th sample of a very large sweep."""
+    done = sweep.samples[sweep.samples["status"] == OK]
+    done = done.iloc[:: -(-len(done) // MOST_SAMPLES) or 1]
+    judged = [k for k, output in enumerate(sweep.study.outputs) if output.band]
+    content = {
+        "variants": sweep.variants,
+        "variant": [sweep.variants.index(name) for name in done["variant"]],
+        "sample": [int(number) for number in done["sample"]],
+        "start": judged[0] if judged else 0,
+        "parameters": [
+            {**_column(p, done), "logarithmic": logarithmic(p, done)} for p in sweep.study.parameters
+        ],
+        "outputs": [
+            {**_column(o, done), "limits": [_limit(sweep, variant, o) for variant in sweep.variants]}
+            for o in sweep.study.outputs
+        ],
+    }
+    return json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+def _column(item: Parameter | Output, samples: pd.DataFrame) -> dict[str, object]:
+    values = [float(f"{value:.6g}") if np.isfinite(value) else None for value in shown(item, samples)]
+    return {"label": item.label, "unit": item.unit, "values": values}
+
+
+def _limit(sweep: Sweep, variant: str, output: Output) -> float | None:
+    band = sweep.band(variant, output)
+    return None if band is None else float(f"{band.limit * output.display_factor:.6g}")

@@ -1,0 +1,59 @@
+"""A page opened in a real browser from the file system, and what can be found wrong with it."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page
+
+WIDE, NARROW = {"width": 1400, "height": 900}, {"width": 400, "height": 800}
+
+
+@dataclass
+class Opened:
+    """A page, and what it said and asked for while it was open."""
+
+    page: Page
+    console: list[str] = field(default_factory=list)
+    requests: list[str] = field(default_factory=list)
+
+    def outside(self) -> list[str]:
+        """Requests for anything that is not in the page itself."""
+        return [url for url in self.requests if not url.startswith(("data:", "blob:"))]
+
+
+def open_page(browser: Browser, path: Path, scripts: bool = True, **how: Any) -> Opened:
+    """Open a file; with `scripts`, wait until those of the page are ready."""
+    context = browser.new_context(**how)
+    opened = Opened(context.new_page())
+    opened.page.on("console", lambda m: opened.console.append(m.text) if m.type == "error" else None)
+    opened.page.on("pageerror", lambda error: opened.console.append(str(error)))
+    opened.page.on("request", lambda request: opened.requests.append(request.url))
+    opened.page.goto(path.as_uri())
+    if scripts and how.get("java_script_enabled", True):
+        opened.page.wait_for_selector("html[data-scripts=ready]", state="attached")
+    return opened
+
+
+def overflowing(page: Page) -> list[str]:
+    """Elements that reach beyond the page's edge, or whose content has to be scrolled sideways."""
+    found: list[str] = page.evaluate(
+        """() => [...document.querySelectorAll("body *")]
+            .filter((e) => e.checkVisibility() && !e.closest("dialog, svg, .plot, .unseen"))
+            .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
+                || (getComputedStyle(e).overflowX !== "visible" && e.scrollWidth > e.clientWidth + 1))
+            .map((e) => `${e.tagName} ${e.id} ${e.className} ${e.textContent.slice(0, 40)}`)"""
+    )
+    wide = page.evaluate("document.documentElement.scrollWidth > innerWidth")
+    return found + (["the page itself"] if wide else [])
+
+
+def serious_defects(page: Page) -> list[tuple[str, str]]:
+    """Serious and critical defects of accessibility that axe finds, each with the first element at fault."""
+    violations = Axe().run(page).response["violations"]
+    return [
+        (found["id"], found["nodes"][0]["html"][:200])
+        for found in violations
+        if found["impact"] in ("serious", "critical")
+    ]
