@@ -2,8 +2,8 @@
 
 python benchmarks/sweep.py [--cases 1000] [--output benchmarks/sweep.json]
 
-Wall times mean something on a quiet machine only: the JSON states the load before and what other processes used of
-the processors meanwhile, and processor seconds besides.
+Wall times mean something on a quiet machine only: the JSON states the load before, what all processes
+of the machine used meanwhile, and processor seconds besides.
 """
 
 import argparse

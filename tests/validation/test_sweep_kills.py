@@ -91,7 +91,7 @@ def test_a_worker_that_is_killed_loses_and_doubles_nothing(study, expected):
     os.kill(workers(process)[0], signal.SIGKILL)
     out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, err) == (0, "")
-    assert f"trial: {SAMPLES} samples; results in" in out
+    assert f"trial: {SAMPLES} samples; page: " in out
     same(study, expected)
 
 

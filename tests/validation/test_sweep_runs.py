@@ -158,7 +158,7 @@ def test_another_study_is_refused_unless_fresh(whole, tmp_path, capsys):
     assert "holds a sweep of another study" in capsys.readouterr().err
     assert len(records(tmp_path / "out")) == 6
     assert main([*command, "--fresh"]) == 0
-    assert "trial: 1 samples; results in" in capsys.readouterr().out
+    assert "trial: 1 samples; page: " in capsys.readouterr().out
     assert len(records(tmp_path / "out")) == 1
 
 
