@@ -7,6 +7,7 @@ of the machine used meanwhile, and processor seconds besides.
 """
 
 import argparse
+import hashlib
 import json
 import os
 import platform
@@ -34,13 +35,14 @@ parameters:
   calcification.youngs_modulus: {{start: 1 MPa, stop: 20 MPa, count: {count}}}
 """
 TASK_S, TASKS = 0.1, 200
+BLOCK = bytes(1_000_000)
 
 
 def spin(samples: list[Sample], _plan: Plan) -> list[Record]:
-    """Keep a processor busy for a tenth of a second of its own time."""
+    """Keep a processor busy for a tenth of a second of its own time, without Python's lock, as a run does."""
     end = time.thread_time() + TASK_S
     while time.thread_time() < end:
-        pass
+        hashlib.sha256(BLOCK).digest()
     return [{"sample": sample.number} for sample in samples]
 
 
@@ -72,15 +74,37 @@ def sweep_of(count: int, workers: int, folder: Path) -> dict[str, float]:
     return found | {"cases": count, "workers": workers, "samples_cpu_s": round(records["seconds"].sum(), 2)}
 
 
+def rest(samples: list[Sample], _plan: Plan) -> list[Record]:
+    """Take a tenth of a second and no processor."""
+    time.sleep(TASK_S)
+    return [{"sample": sample.number} for sample in samples]
+
+
 def overhead(workers: int) -> dict[str, float]:
-    """Share of the time that tasks of a tenth of a second do not use, on a cluster that has started."""
+    """Share that the scheduler adds to tasks of a tenth of a second, on a cluster that has started.
+
+    ``processor``: of their processor time, in the client (scheduler included) and the workers together,
+    whatever else the machine does; ``waiting``: of the wall time of tasks that only wait, so that they do not
+    compete with the scheduler; ``wall``: of the wall time of tasks that compute, which says something on an
+    idle machine with more processors than workers.
+    """
     chunks = [(number, [Sample(number, "", (), None)]) for number in range(TASKS)]
+    nothing, tasks_s = Plan((), (), {}), TASKS * TASK_S
     with connected(PROCESSES, workers, print) as client:
-        list(computed(client, chunks[: 4 * workers], Plan((), (), {}), spin))
-        found = timed(lambda: list(computed(client, chunks, Plan((), (), {}), spin)))
+
+        def processor_s() -> float:
+            return time.process_time() + sum(client.run(time.process_time).values())
+
+        list(computed(client, chunks[: 4 * workers], nothing, spin))
+        begin = processor_s()
+        found = timed(lambda: list(computed(client, chunks, nothing, spin)))
+        spent = processor_s() - begin
+        waited = timed(lambda: list(computed(client, chunks, nothing, rest)))
     return found | {
         "workers": workers,
-        "overhead": round(found["wall_s"] * workers / (TASKS * TASK_S) - 1.0, 4),
+        "processor": round(spent / tasks_s - 1.0, 4),
+        "waiting": round(waited["wall_s"] * workers / tasks_s - 1.0, 4),
+        "wall": round(found["wall_s"] * workers / tasks_s - 1.0, 4),
     }
 
 
