@@ -80,8 +80,8 @@ def load_case_file(path: str | Path) -> CaseFile:
     text = read_text(path)
     root = parse_yaml(text, path)
     problems = _unknown_keys(root)
-    heading = _check(_Heading, _part(root, ("name", "title")), None, problems)
-    overrides = _overrides(root, problems)
+    heading = check_section(_Heading, part_of(root, ("name", "title")), None, problems)
+    overrides = overrides_of(root, problems)
     cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides)), problems)
     problems += _tables_apart(cases, overrides)
     if problems or heading is None:
@@ -93,14 +93,16 @@ def _cases(
     root: Node, overrides: dict[str, Node], context: Context, problems: list[Problem]
 ) -> dict[str, Case]:
     """Return the checked cases by variant; add what is wrong to the problems."""
-    base = _part(root, CASE_KEYS)
+    base = part_of(root, CASE_KEYS)
     cases = {}
     found: dict[Problem, list[str]] = {}
     for name, override in overrides.items():
         merged = merge_variant(base, override)
         title = Node(name, root.line, "title") if "variants" in root.section else _title(root)
         wrong: list[Problem] = []
-        case = _check(Case, Node({"title": title, **merged.section}, root.line, root.key), context, wrong)
+        case = check_section(
+            Case, Node({"title": title, **merged.section}, root.line, root.key), context, wrong
+        )
         if case is not None:
             cases[name] = case
         for problem in wrong:
@@ -139,12 +141,12 @@ def _title(root: Node) -> Node:
     return Node(ONLY_VARIANT, root.line, "title") if stated is None else stated
 
 
-def _part(root: Node, keys: tuple[str, ...]) -> Node:
+def part_of(root: Node, keys: tuple[str, ...]) -> Node:
     """Return a section with some of its keys."""
     return Node({key: node for key, node in root.section.items() if key in keys}, root.line, root.key)
 
 
-def _check(schema: type[S], node: Node, context: Context | None, problems: list[Problem]) -> S | None:
+def check_section(schema: type[S], node: Node, context: Context | None, problems: list[Problem]) -> S | None:
     """Return the checked section, or None and more problems."""
     try:
         return schema.model_validate(node.plain(), context=context)
@@ -161,7 +163,7 @@ def _unknown_keys(root: Node) -> list[Problem]:
     ]
 
 
-def _overrides(root: Node, problems: list[Problem]) -> dict[str, Node]:
+def overrides_of(root: Node, problems: list[Problem]) -> dict[str, Node]:
     """Return the overrides by variant; one that changes nothing where the file states no variants."""
     if "variants" not in root.section:
         return {ONLY_VARIANT: Node({}, root.line, root.key)}

@@ -21,6 +21,7 @@ from cases.values import (
     Pressure,
     PressureWaveform,
     Ramp,
+    Scale,
     Velocity,
     VelocityWaveform,
     one_of,
@@ -47,6 +48,8 @@ class PrescribedInlet(Section):
         A constant, in SI units.
     fourier : FourierSeries or None
         The quantity as a Fourier series.
+    scale : float
+        Factor of the quantity at all times.
     ramp : float or None
         Time in s over which the quantity grows from 0 as half a cosine.
     period : float
@@ -58,6 +61,7 @@ class PrescribedInlet(Section):
     waveform: InstanceOf[Waveform] | None = None
     value: float | None = None
     fourier: FourierSeries | None = None
+    scale: Scale = 1.0
     ramp: Ramp | None = None
     period: Period = Field(default_factory=_default_period)
 

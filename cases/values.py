@@ -60,11 +60,14 @@ class ValueKind:
         What is allowed, in words.
     json_schema : dict
         The kind for editors.
+    unit : str
+        SI unit of a number, as `cases.fields` writes units ("1": none); empty for what is no number.
     """
 
     parse: Callable[[object, Context | None], object]
     allowed: str
     json_schema: dict[str, Any]
+    unit: str = ""
 
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Check values by `parse` alone; see pydantic's documentation of custom types."""
@@ -91,18 +94,18 @@ def refused(
 
 def quantity(within: Range, example: str) -> ValueKind:
     """Return the kind of quantities with a unit in a range; values become floats in SI units."""
-    allowed = f'{within}, e.g. "{example}"'
+    allowed, dimension = f'{within}, e.g. "{example}"', DIMENSIONS[within.dimension]
 
     def parse(value: object, _context: Context | None) -> float:
         try:
-            number = parse_quantity(value, DIMENSIONS[within.dimension])
+            number = parse_quantity(value, dimension)
         except QuantityError as error:
             raise refused(value, allowed, str(error)) from error
         if number not in within:
             raise refused(value, allowed)
         return number
 
-    return ValueKind(parse, allowed, {"type": "string", "examples": [example]})
+    return ValueKind(parse, allowed, {"type": "string", "examples": [example]}, dimension.unit)
 
 
 def whole_number(allowed: str, is_allowed: Callable[[int], bool]) -> ValueKind:
@@ -113,7 +116,7 @@ def whole_number(allowed: str, is_allowed: Callable[[int], bool]) -> ValueKind:
             raise refused(value, allowed)
         return value
 
-    return ValueKind(parse, allowed, {"type": "integer"})
+    return ValueKind(parse, allowed, {"type": "integer"}, "1")
 
 
 def number(allowed: str, is_allowed: Callable[[float], bool]) -> ValueKind:
@@ -124,7 +127,7 @@ def number(allowed: str, is_allowed: Callable[[float], bool]) -> ValueKind:
             raise refused(value, allowed)
         return float(value)
 
-    return ValueKind(parse, allowed, {"type": "number"})
+    return ValueKind(parse, allowed, {"type": "number"}, "1")
 
 
 def text(allowed: str, pattern: str) -> ValueKind:
@@ -239,7 +242,7 @@ def ratio(allowed: str, least: float, largest: float) -> ValueKind:
             raise refused(value, allowed)
         return found
 
-    return ValueKind(parse, allowed, {"type": ["string", "number"]})
+    return ValueKind(parse, allowed, {"type": ["string", "number"]}, "1")
 
 
 SWITCH = "true, false"
@@ -267,6 +270,7 @@ Resistance = Annotated[float, quantity(RESISTANCES, "1.358e9 Pa s/m^3")]
 SeriesResistance = Annotated[float, quantity(SERIES_RESISTANCES, "1.358e9 Pa s/m^3")]
 Compliance = Annotated[float, quantity(COMPLIANCES, "1e-10 m^3/Pa")]
 Exponent = Annotated[float, number("a number from 0.01 to 1000", lambda value: 0.01 <= value <= 1000)]
+Scale = Annotated[float, number("a number from 0.001 to 1000", lambda value: 0.001 <= value <= 1000)]
 Tolerance = Annotated[float, ratio('a ratio from 1e-9 to 0.1, e.g. "0.1 %"', 1e-9, 0.1)]
 CourantLimit = Annotated[float, number("a number from 0.001 to 1e6", lambda value: 0.001 <= value <= 1e6)]
 DefectLimit = Annotated[float, ratio('a ratio from 1e-15 to 1, e.g. "0.1 %"', 1e-15, 1.0)]

@@ -23,7 +23,7 @@ from solver.model import Model, State, uniform_state
 from solver.steady import steady_state
 from solver.wall_from_case import patch_of
 from solver.walls_of_case import walls_of
-from solver.waveform import FourierSeries, Ramped, Signal, Waveform, constant
+from solver.waveform import FourierSeries, Ramped, Scaled, Signal, Waveform, constant
 
 OUTPUTS_PER_CYCLE = 100  # where the case states no output_interval
 
@@ -53,6 +53,11 @@ def _signal(waveform: Samples | None, value: float | None, period: float) -> Sig
 def inlet_signal(case: Case) -> Signal:
     """Return what is prescribed at the inlet over time, SI, without its ramp."""
     inlet: PrescribedInlet = case.inlet
+    signal = _inlet_source(inlet)
+    return signal if inlet.scale == 1.0 else Scaled(signal, inlet.scale)
+
+
+def _inlet_source(inlet: PrescribedInlet) -> Signal:
     if inlet.fourier is not None:
         series = inlet.fourier
         return FourierSeries(series.period, series.mean, tuple(series.cosines), tuple(series.sines))

@@ -10,11 +10,15 @@ from solver.errors import ModelError
 
 @dataclass(frozen=True)
 class Grid:
-    """n_x cells along an artery of ``length`` (m) and n_phi around it; centres at (i−½)Δx, (j−½)Δφ."""
+    """n_x cells along an artery of ``length`` (m) and n_phi around it; centres at (i−½)Δx, (j−½)Δφ.
+
+    Where it is ``mirrored``, the rows lie in 0 < φ < π and stand for their mirror images too.
+    """
 
     length: float
     n_x: int
     n_phi: int
+    mirrored: bool = False
 
     def __post_init__(self) -> None:
         if self.n_x < 3:
@@ -32,7 +36,12 @@ class Grid:
     @property
     def dphi(self) -> float:
         """Cell height Δφ, rad."""
-        return 2 * np.pi / self.n_phi
+        return (np.pi if self.mirrored else 2 * np.pi) / self.n_phi
+
+    @property
+    def sector(self) -> float:
+        """Flow rate of a section over the sum of its rows' Q: ½Δφ, or Δφ where each row stands for two."""
+        return self.dphi if self.mirrored else 0.5 * self.dphi
 
     @property
     def x(self) -> NDArray[np.float64]:

@@ -37,11 +37,11 @@ def walk_semi_implicit(
             snapshot.sweeps,
             snapshot.longest_step,
             {**_kept(snapshot), "history": monitor.history},
-            _azimuthal_flux(model, snapshot.state),
+            azimuthal_flux_of(model, snapshot.state),
         )
 
 
-def _azimuthal_flux(model: Model, state: State) -> NDArray[np.float64] | None:
+def azimuthal_flux_of(model: Model, state: State) -> NDArray[np.float64] | None:
     """W of the cells, m²/s; None where rows keep their own blood."""
     if model.section_wall is None or state.pressure is None:
         return None

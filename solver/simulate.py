@@ -108,6 +108,12 @@ def implicitness(time_step: float) -> float:
     return 0.5 + min(0.5, DAMPING_RATE * time_step)
 
 
+def equal_steps(begin: float, end: float, time_step: float) -> tuple[float, int]:
+    """Δt, s, and number of the equal steps, not longer than ``time_step``, between two times."""
+    count = max(1, int(np.ceil((end - begin) / time_step * (1 - 1e-12))))
+    return (end - begin) / count, count
+
+
 def snapshots(
     model: Model,
     output_times: ArrayLike,
@@ -140,8 +146,7 @@ def snapshots(
     yield snapshot()
     for begin, end in pairwise(times.tolist()):
         if error_tolerance is None:
-            count = max(1, int(np.ceil((end - begin) / time_step * (1 - 1e-12))))
-            longest = (end - begin) / count
+            longest, count = equal_steps(begin, end, time_step)
             defect = stepper.advance_through(begin, longest, count, implicitness(longest))
         else:
             defect, longest, wanted = _adaptive(stepper, begin, end, time_step, wanted, error_tolerance)

@@ -158,7 +158,7 @@ def mass_defect(model: Model, exchanged: Floats, change: float, time_step: float
 
 def lumen_volume(model: Model, area: Floats) -> float:
     """Volume of the lumen, ∫∫ ½A dφ dx, m³."""
-    return float(0.5 * model.grid.dphi * model.grid.dx * np.sum(area))
+    return float(model.grid.sector * model.grid.dx * np.sum(area))
 
 
 def offsets(model: Model, times: ArrayLike) -> Floats:
@@ -214,6 +214,8 @@ def parameters(model: Model) -> layout.Parameters:
     return layout.Parameters(
         dx=float(model.grid.dx),
         dphi=float(model.grid.dphi),
+        sector=float(model.grid.sector),
+        mirrored=model.grid.mirrored,
         radius=float(model.radius),
         reference_pressure=float(model.reference_pressure),
         density=float(model.density),
@@ -249,7 +251,7 @@ def fields_of(model: Model, state: State) -> layout.Fields:
     if not np.all(state.area > 0):
         raise ModelError("the state's area must be positive in every cell")
     pressure = model.pressure(state.area) if state.pressure is None else state.pressure
-    section = 0.5 * grid.dphi * float(np.sum(state.flow[-1]))
+    section = grid.sector * float(np.sum(state.flow[-1]))
     outlet = _outlet_pressure(model, state, pressure, section)
     inlet = pressure[0] if state.inlet_pressure is None else state.inlet_pressure
     reservoir = state.reservoir

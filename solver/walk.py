@@ -44,6 +44,20 @@ class Stop(NamedTuple):
     azimuthal_flux: Floats | None = None
 
 
+def require_exponents(times: Floats, exponent: Floats) -> None:
+    """Refuse states, at times (n,), s, of which a cell has no exponent; (n, n_x, n_phi), NaN where none is.
+
+    Raises
+    ------
+    NoAdmissibleProfile
+        With the first such state and cell.
+    """
+    missing = np.argwhere(~np.isfinite(exponent))
+    if missing.size:
+        n, i, j = (int(k) for k in missing[0])
+        raise NoAdmissibleProfile(float(times[n]), i + 1, j + 1)
+
+
 def history_of(stops: Sequence[Stop]) -> CellHistory:
     """States of the cells at stops.
 
@@ -52,14 +66,12 @@ def history_of(stops: Sequence[Stop]) -> CellHistory:
     NoAdmissibleProfile
         Where a cell has no exponent γ > 0.
     """
+    times = np.array([stop.time for stop in stops])
     exponent = np.array([stop.columns.exponent[1:-1] for stop in stops])
-    missing = np.argwhere(~np.isfinite(exponent))
-    if missing.size:
-        n, i, j = (int(k) for k in missing[0])
-        raise NoAdmissibleProfile(stops[n].time, i + 1, j + 1)
+    require_exponents(times, exponent)
     crossing = [stop.azimuthal_flux for stop in stops if stop.azimuthal_flux is not None]
     return CellHistory(
-        times=np.array([stop.time for stop in stops]),
+        times=times,
         area=np.array([stop.columns.area[1:-1] for stop in stops]),
         flow=np.array([stop.columns.flow[1:-1] for stop in stops]),
         pressure=np.array([stop.columns.pressure[1:-1] for stop in stops]),

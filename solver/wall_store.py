@@ -14,6 +14,8 @@ from solver.kernel_cache import usable_folder
 
 Floats = NDArray[np.float64]
 
+MOST_ENTRIES = 256  # half a megabyte each on a grid of 120 x 48
+
 
 def digest_of(parts: Iterable[str | Floats]) -> str:
     """Digest of words and arrays, shapes included."""
@@ -44,7 +46,8 @@ def kept_array(
 
     Notes
     -----
-    An entry that is damaged, checked by its own digest, is computed again.
+    An entry that is damaged, checked by its own digest, is computed again. The folder holds 256 entries at
+    most: those written first go.
     """
     place = usable_folder("walls") if folder is None else folder
     if place is None:
@@ -77,8 +80,25 @@ def _write(path: Path, values: Floats) -> None:
         with os.fdopen(handle, "wb") as stream:
             np.savez(stream, values=values, digest=np.array(digest_of([values])))
         partial.replace(path)
+        _make_room(path.parent)
     except OSError:
         partial.unlink(missing_ok=True)
     except BaseException:
         partial.unlink(missing_ok=True)
         raise
+
+
+def _make_room(folder: Path) -> None:
+    """Remove the entries written first where there are too many; other processes may do the same."""
+    entries = list(folder.glob("*.npz"))
+    if len(entries) > MOST_ENTRIES:
+        for path in sorted(entries, key=_written)[:-MOST_ENTRIES]:
+            path.unlink(missing_ok=True)
+
+
+def _written(path: Path) -> float:
+    """Time of writing; the past for an entry that another process just removed."""
+    try:
+        return path.stat().st_mtime
+    except FileNotFoundError:
+        return 0.0

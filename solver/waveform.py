@@ -133,6 +133,27 @@ class Ramped:
         return np.asarray(self.signal(time) * load_curve(time, 0.0, self.duration, 0.0, 1.0))
 
 
+@dataclass(frozen=True)
+class Scaled:
+    """A signal times a factor."""
+
+    signal: Signal
+    factor: float
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.factor) and self.factor > 0):
+            raise ModelError(f"scale = {self.factor}; allowed: positive")
+
+    @property
+    def period(self) -> float:
+        """Length of the signal's cycle, s."""
+        return self.signal.period
+
+    def __call__(self, time: ArrayLike) -> Floats:
+        """Value at ``time`` (s), SI, of the shape of ``time``."""
+        return np.asarray(self.factor * self.signal(time))
+
+
 def constant(value: float, period: float) -> Waveform:
     """Waveform that keeps one value over cycles of ``period`` s."""
     return Waveform(np.array([0.0, period]), np.array([value, value]))

@@ -90,7 +90,7 @@ def reference_key(case: Case, alignment: Alignment, rays: Rays) -> str:
         "geometry": case.geometry,
         "calcification": case.calcification,
         "inlet": case.inlet,
-        "sections": case.compare.cells.i,
+        "cells": case.compare.cells,
         "alignment": alignment,
         "rays": rays,
     }

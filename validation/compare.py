@@ -6,17 +6,18 @@ import shlex
 import signal
 import sys
 from collections.abc import Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
 from febio_io.errors import FebioError
-from reports import ReportError, write_reports
 from solver.errors import SolverError
 from solver.from_case import inlet_signal
 from validation import metrics
@@ -32,7 +33,7 @@ from validation.comparison import (
     check_variants,
     without_fields,
 )
-from validation.comparison_file import comparison_file
+from validation.comparison_file import ComparisonFile, comparison_file
 from validation.confidence import confidence_rows
 from validation.curved_section import curved_section_rows
 from validation.errors import ValidationError
@@ -42,10 +43,11 @@ from validation.output import check_target, result_directory, write_json, write_
 from validation.paraview import write_walls
 from validation.pooled_change import pooled_change_rows, without_rays
 from validation.profile_curves import CURVE, error_curves, profile_rows
+from validation.rendering import load_reports, write_reports
 from validation.run import Watch, align_variants, run_variants, watching
 from validation.side_by_side import write_side_by_side
 
-EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
+EXPECTED = (CaseError, SolverError, FebioError, ValidationError)
 COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
@@ -102,7 +104,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
 
     Raises
     ------
-    CaseError, SolverError, FebioError, ValidationError, ReportError
+    CaseError, SolverError, FebioError, ValidationError
         For input that is wrong; ``target`` is then as it was.
     """
     check_variants(file.variants)
@@ -128,8 +130,12 @@ def _compared(
     rows: dict[str, list[Row]] = {}
     runs: dict[str, VariantRun] = {}
     compared: dict[str, Models] = {}
-    with comparison_file(directory / "comparison.nc", list(file.variants), about) as stored:
-        for name, run in run_variants(file.variants, alignments, watch):
+    writing: list[Future[None]] = []
+    with (
+        comparison_file(directory / "comparison.nc", list(file.variants), about) as stored,
+        ThreadPoolExecutor(max_workers=1) as writer,  # netCDF works outside the interpreter's lock
+    ):
+        for name, run in run_variants(file.variants, alignments, watch, load_reports):
             both = both_models(run, times)
             with watch.step("metrics"):
                 told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
@@ -137,15 +143,21 @@ def _compared(
                 rows[name] = variant_rows(models, run, about)
                 compared[name] = without_rays(models)
                 both[CURVE] = error_curves(models, about)
-            with watch.step("comparison.nc"):
-                stored.write(name, both)
+            writing.append(writer.submit(_store, stored, name, both, watch))
             with watch.step("files for ParaView"):
                 write_walls(directory, name, both)
             runs[name] = without_fields(run)
+        for written in writing:
+            written.result()
     ordered = [row for name in file.variants for row in rows[name]]
     baselines = json.loads(about["baselines"])
     changes = [*metrics.change_rows(ordered, baselines), *pooled_change_rows(compared, baselines)]
     return ordered + changes, {name: runs[name] for name in file.variants}, notes
+
+
+def _store(stored: ComparisonFile, name: str, both: xr.Dataset, watch: Watch) -> None:
+    with watch.step("comparison.nc"):
+        stored.write(name, both)
 
 
 def summary(file: CaseFile, target: Path, bands: list[Row]) -> str:

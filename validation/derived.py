@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from cases.fields import FIELDS
 from validation.mapping import MappedState
-from validation.profiles import closest_profile
+from validation.meshed_profiles import closest_meshed_profile
+from validation.nodal_shares import TwoRings
 from validation.rays import Rays
 
 Floats = NDArray[np.float64]
@@ -58,7 +59,8 @@ def _state_fields(state: MappedState, rays: Rays) -> dict[str, Any]:
     velocity = state.velocity.astype(np.float32)
     mean_velocity = rays.mean(state.velocity[..., 0])
     sector = 0.5 * mean_velocity * state.sector_area * rays.dphi
-    closest = closest_profile(state.velocity[..., 0].reshape(-1, rays.y.size), rays.y)
+    rings = TwoRings(*(part.reshape(-1, rays.y.size) for part in state.rings))
+    closest = closest_meshed_profile(state.velocity[..., 0].reshape(-1, rays.y.size), rays.y, rings)
     axial = velocity[..., 0]
     return {
         "pressure": state.pressure,

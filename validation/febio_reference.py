@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from validation.errors import UnusableReferenceError
 from validation.febio_run import account_of_run
 from validation.mapping import MappedState, Mapper
 from validation.mesh import LumenMesh
+from validation.nodal_shares import RINGS
 from validation.plane_section import lumen_grid, plane_flow_rate
 from validation.plot_model import PlotModel, plot_model
 from validation.provenance import shown_path
@@ -26,6 +28,15 @@ from validation.reference import Progress, Reference
 
 RADIUS_TOLERANCE = 1e-2  # and the mean radius of its unloaded interface by this share
 LENGTH_TOLERANCE = 1e-3  # the mesh's length may differ from the case's by this share
+
+
+@dataclass
+class _Kept:
+    """Of each state: flow rate and area of the inlet, and rings of nodes at the tabulated cells."""
+
+    cells: tuple[NDArray[np.intp], ...]
+    inlet: list[tuple[float, float]] = field(default_factory=list)
+    rings: list[NDArray[np.float64]] = field(default_factory=list)
 
 
 def align_febio(case: Case) -> Alignment:
@@ -103,10 +114,11 @@ def _read(
     run = account_of_run(plot, stated)
     if alignment is None:
         alignment = _alignment(plot, stated, case)
-    inlet: list[tuple[float, float]] = []
-    mapped = _mapped(model, Mapper(model.mesh, rays), alignment, progress, inlet)
+    kept = _Kept(np.ix_(np.array(case.compare.cells.i) - 1, np.array(case.compare.cells.j) - 1))
+    mapped = _mapped(model, Mapper(model.mesh, rays), alignment, progress, kept)
     fields = derived_fields(mapped, rays, alignment.cycle_times)
-    inflow, inlet_area = np.array(inlet).T
+    fields = fields.assign({RINGS: _rings(kept, rays)})
+    inflow, inlet_area = np.array(kept.inlet).T
     _check_direction(plot, inflow, alignment, case)
     checks = _plane_checks(model, alignment, case, rays)
     return Reference(
@@ -143,15 +155,31 @@ def _mapped(
     mapper: Mapper,
     alignment: Alignment,
     progress: Progress | None,
-    inlet: list[tuple[float, float]],
+    kept: _Kept,
 ) -> Iterator[MappedState]:
-    """Map state after state; flow rate and area of each inlet go to ``inlet``."""
+    """Map state after state; keep what is not a field on all cells."""
     for done, state in enumerate(alignment.states.tolist(), start=1):
         mapped = mapper.map_state(*model.read(state))
-        inlet.append((mapped.inflow, mapped.inlet_area))
+        kept.inlet.append((mapped.inflow, mapped.inlet_area))
+        kept.rings.append(np.stack([part[kept.cells] for part in mapped.rings], axis=-1))
         yield mapped
         if progress:
             progress(done, len(alignment.states))
+
+
+def _rings(kept: _Kept, rays: Rays) -> xr.DataArray:
+    """Rings of nodes around the points of the tabulated cells' rays."""
+    i, j = (index.ravel() for index in kept.cells)
+    return xr.DataArray(
+        np.array(kept.rings),
+        dims=("time", "compare_x", "compare_phi", "y", "ring"),
+        coords={
+            "compare_x": ("compare_x", rays.x[i], {"units": "m"}),
+            "compare_phi": ("compare_phi", rays.phi[j], {"units": "rad"}),
+            "ring": ("ring", np.arange(3), {"flag_meanings": "inner outer weight_of_outer"}),
+        },
+        attrs={"units": "1", "long_name": "r/R of the mesh's nodes around a point, as two rings"},
+    )
 
 
 def _check_direction(plot: Plot, inflow: NDArray[np.float64], alignment: Alignment, case: Case) -> None:

@@ -150,11 +150,8 @@ def _search_everywhere(mesh: Topology, shapes: Shapes, point: Array, natural: Ar
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _search(guess: int, mesh: Topology, shapes: Shapes, point: Array, natural: Array) -> int:
-    """Element that holds ``point``: the guess, else a neighbour of it, else any; −1 if none does."""
+    """Element that holds ``point``, which the guess does not: a neighbour, else any; −1 if none does."""
     if guess >= 0:
-        r, s, t = natural[0], natural[1], natural[2]
-        if _try(guess, mesh.kinds, shapes.maps, point, r, s, t, natural) <= INSIDE:
-            return guess
         element = _search_neighbours(guess, mesh, shapes, point, natural)
         if element >= 0:
             return element
@@ -180,20 +177,25 @@ def locate(mesh: Topology, shapes: Shapes, points: Array, located: Located) -> i
     int
         Index of the first point that lies in no element, or −1.
     """
-    natural = np.empty(3)
+    kinds, maps, elements, naturals = mesh.kinds, shapes.maps, located.element, located.natural
+    natural = np.zeros(3)
     missing = -1
     previous = -1
     for n in range(points.shape[0]):
-        guess = located.element[n]
-        if guess >= 0:
-            natural[:] = located.natural[n]
-        else:
+        guess = elements[n]
+        r, s, t = naturals[n, 0], naturals[n, 1], naturals[n, 2]
+        if guess < 0 and previous >= 0:
             guess = previous
-            if guess >= 0:
-                natural[0], natural[1], natural[2] = centre(mesh.kinds[guess])
+            r, s, t = centre(kinds[guess])
+        if guess >= 0:  # nearly always right, hence not by way of the functions above
+            found, r, s, t = _invert(maps[guess], points[n], r, s, t)
+            if found and outside_by(kinds[guess], r, s, t) <= INSIDE:
+                elements[n], previous = guess, guess
+                naturals[n, 0], naturals[n, 1], naturals[n, 2] = r, s, t
+                continue
         element = _search(guess, mesh, shapes, points[n], natural)
-        located.element[n] = element
-        located.natural[n] = natural
+        elements[n] = element
+        naturals[n] = natural
         if element < 0 and missing < 0:
             missing = n
         if element >= 0:

@@ -45,6 +45,20 @@ def models_between(case: Case) -> dict[str, Case]:
     return found
 
 
+def coupled_model(case: Case) -> Case:
+    """Return a case with the coupled model: its wall a membrane, one pressure a section.
+
+    Raises
+    ------
+    ValidationError
+        For another scheme than semi_implicit, or a wall without a Poisson's ratio.
+    """
+    if not isinstance(case.solver, SemiImplicitSolver):
+        raise ValidationError("solver.scheme: the coupled model needs semi_implicit")
+    solver = case.solver.model_copy(update={"pressure": "section"})
+    return case.model_copy(update={"wall": _membrane(case.wall), "solver": solver})
+
+
 def _of_law(wall: HomogeneousWall, law: str) -> HomogeneousWall:
     return wall.model_copy(update={"law": law})
 

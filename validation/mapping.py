@@ -10,6 +10,7 @@ from validation import interpolation
 from validation.errors import UnusableReferenceError
 from validation.interpolation import Located
 from validation.mesh import LumenMesh
+from validation.nodal_shares import TwoRings, nodal_shares, two_rings
 from validation.rays import Rays
 from validation.surface import area_across_axis, flow_along_axis, flux
 from validation.wall_radius import interface_radius
@@ -22,7 +23,8 @@ class MappedState(NamedTuple):
 
     ``radius``, ``chord`` (n_x, n_phi): wall radius and the ray's end in the mesh; ``sector_area``
     (n_x, n_phi): 2/Δφ times the area of each sector of the mesh's lumen, R² for a circle, m²;
-    ``velocity`` (n_x, n_phi, n_y, 3): along x, r, φ; ``pressure`` (n_x, n_phi): ray mean;
+    ``velocity`` (n_x, n_phi, n_y, 3): along x, r, φ; ``rings`` (n_x, n_phi, n_y): nodes around the points;
+    ``pressure`` (n_x, n_phi): ray mean;
     ``pressure_range`` (n_x,): largest minus least over all points of a section; ``inflow``, ``outflow``,
     ``wall_flow``: flow rates through the boundary by surface integral, m³/s; ``inlet_area``: m².
     """
@@ -31,6 +33,7 @@ class MappedState(NamedTuple):
     chord: Floats
     sector_area: Floats
     velocity: Floats
+    rings: TwoRings
     pressure: Floats
     pressure_range: Floats
     inflow: float
@@ -49,6 +52,7 @@ class Mapper:
     _faces: NDArray[np.int64] = field(init=False)
     _chord_faces: NDArray[np.int64] = field(init=False)
     _rim_faces: NDArray[np.int64] = field(init=False)
+    _node_faces: NDArray[np.int64] = field(init=False)
 
     def __post_init__(self) -> None:
         n_x, n_phi, n_y = self.rays.shape
@@ -57,6 +61,7 @@ class Mapper:
         self._faces = np.zeros((n_x, n_phi), dtype=np.int64)
         self._chord_faces = np.zeros((n_x, n_phi), dtype=np.int64)
         self._rim_faces = np.zeros((n_x, self.rays.rim.size), dtype=np.int64)
+        self._node_faces = np.zeros(self.mesh.lumen_nodes.size, dtype=np.int64)
 
     def map_state(self, displacement: Floats, velocity: Floats, pressure: Floats) -> MappedState:
         """Bring nodal values onto the rays.
@@ -87,13 +92,15 @@ class Mapper:
                 f"no lumen element holds the point at x = {rays.x[i]:.6g} m, φ = {rays.phi[j]:.4g} rad, "
                 f"r/R = {rays.y[k]:.3g}"
             )
-        nodal = np.column_stack([velocity, pressure])
-        values = interpolation.interpolate(mesh.lumen, nodal, self._located).reshape(*rays.shape, 4)
+        share = nodal_shares(points, mesh, radius, rays, self._node_faces)
+        nodal = np.column_stack([velocity, pressure, share, share**2, share**3])
+        values = interpolation.interpolate(mesh.lumen, nodal, self._located).reshape(*rays.shape, 7)
         return MappedState(
             radius=radius,
             chord=chord,
             sector_area=(rim**2).reshape(*radius.shape, -1).mean(axis=-1),
             velocity=rays.cylindrical(values[..., :3]),
+            rings=two_rings(values[..., 4:]),
             pressure=rays.mean(values[..., 3]),
             pressure_range=np.ptp(values[..., 3], axis=(1, 2)),
             inflow=flow_along_axis(points, mesh.inlet, velocity),

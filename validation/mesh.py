@@ -36,8 +36,8 @@ class LumenMesh:
         Lumen elements, in the order of the blocks given.
     interface, inlet, outlet : ndarray (n_f, 4)
         Boundary faces of the lumen, normal outwards; triangles repeat their last node.
-    interface_nodes : ndarray (m,)
-        Nodes of the interface, sorted.
+    lumen_nodes, interface_nodes : ndarray (m,)
+        Nodes of the lumen and of the interface, sorted.
     length : float
         Extent along the axis, m.
     """
@@ -47,6 +47,7 @@ class LumenMesh:
     interface: Integers
     inlet: Integers
     outlet: Integers
+    lumen_nodes: Integers
     interface_nodes: Integers
     length: float
 
@@ -105,7 +106,8 @@ def lumen_mesh(coordinates: Floats, lumen: list[Block], wall: list[Block]) -> Lu
     if not len(interface):
         raise UnusableReferenceError("lumen and wall elements share no face: no lumen–wall interface")
     kinds, nodes = padded(lumen)
-    along = coordinates[np.unique(nodes[nodes >= 0]), 0]
+    lumen_nodes = np.unique(nodes[nodes >= 0])
+    along = coordinates[lumen_nodes, 0]
     first, last = float(along.min()), float(along.max())
     tolerance = 1e-6 * (last - first)
     face_x = coordinates[boundary, 0]
@@ -120,6 +122,7 @@ def lumen_mesh(coordinates: Floats, lumen: list[Block], wall: list[Block]) -> Lu
         interface=interface,
         inlet=inlet,
         outlet=outlet,
+        lumen_nodes=lumen_nodes,
         interface_nodes=np.unique(interface),
         length=last - first,
     )

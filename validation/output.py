@@ -139,7 +139,8 @@ def _plain(value: Any) -> Any:
 
 
 def write_metrics(directory: Path, table: pd.DataFrame) -> None:
-    """Write metrics.csv and metrics.json, 17 digits."""
+    """Write metrics.csv and metrics.json, a line a row, 17 digits."""
     table.to_csv(directory / "metrics.csv", index=False)
     records = [{k: _plain(v) for k, v in row.items()} for row in table.astype(object).to_dict("records")]
-    write_json(directory / "metrics.json", records)
+    lines = [json.dumps(record, ensure_ascii=False, allow_nan=False) for record in records]
+    write_text(directory / "metrics.json", "[\n" + ",\n".join(lines) + "\n]\n")

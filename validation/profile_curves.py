@@ -7,8 +7,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from validation.meshed_profiles import meshed_shapes
 from validation.metrics import Models, Row
-from validation.profiles import errors_at
+from validation.nodal_shares import RINGS, TwoRings
+from validation.profiles import errors_at, errors_of
 
 Floats = NDArray[np.float64]
 
@@ -24,6 +26,20 @@ def _profiles(models: Models, attributes: Mapping[str, Any]) -> tuple[xr.DataArr
     return models.reference["axial_velocity"].isel(time=states, x=i, phi=j), states
 
 
+def _errors(models: Models, chosen: xr.DataArray, states: list[int], exponents: Floats) -> Floats:
+    """Relative errors (n, m) of the chosen profiles from the closest ones with exponents (n, m).
+
+    Profiles of the family are interpolated as the reference's mesh does; a reference that tells no mesh is
+    taken to know its velocity at each point.
+    """
+    velocities = chosen.to_numpy().astype(float).reshape(-1, chosen.sizes["y"])
+    if RINGS not in models.reference:
+        return errors_at(velocities, chosen["y"].to_numpy(), exponents)
+    parts = models.reference[RINGS].isel(time=states).to_numpy()
+    rings = TwoRings(*np.moveaxis(parts.reshape(-1, chosen.sizes["y"], 3), -1, 0))
+    return errors_of(velocities, meshed_shapes(rings, exponents))
+
+
 def error_curves(models: Models, attributes: Mapping[str, Any]) -> xr.DataArray:
     """Relative error of the profile that is closest to 3D for a given γ.
 
@@ -32,10 +48,9 @@ def error_curves(models: Models, attributes: Mapping[str, Any]) -> xr.DataArray:
     xarray.DataArray
         On (compare_time, compare_x, compare_phi, exponent); NaN where the reference has no profile.
     """
-    chosen, _ = _profiles(models, attributes)
-    velocities = chosen.to_numpy().astype(float).reshape(-1, chosen.sizes["y"])
-    exponents = np.broadcast_to(EXPONENTS, (len(velocities), EXPONENTS.size))
-    curves = errors_at(velocities, chosen["y"].to_numpy(), exponents)
+    chosen, states = _profiles(models, attributes)
+    count = chosen.size // chosen.sizes["y"]
+    curves = _errors(models, chosen, states, np.broadcast_to(EXPONENTS, (count, EXPONENTS.size)))
     return xr.DataArray(
         curves.reshape(*chosen.shape[:-1], EXPONENTS.size),
         dims=("compare_time", "compare_x", "compare_phi", "exponent"),
@@ -54,12 +69,10 @@ def profile_rows(models: Models, attributes: Mapping[str, Any]) -> Iterator[Row]
     chosen, states = _profiles(models, attributes)
     if np.all(np.isnan(chosen)):
         return
-    velocities = chosen.to_numpy().astype(float)
     i, j = np.asarray(attributes["compare_i"]), np.asarray(attributes["compare_j"])
     own = models.rom["profile_exponent"].isel(time=states, x=i - 1, phi=j - 1).to_numpy()
     best = models.reference["profile_error"].isel(time=states, x=i - 1, phi=j - 1).to_numpy()
-    flat = velocities.reshape(-1, velocities.shape[-1])
-    error = errors_at(flat, chosen["y"].to_numpy(), own.reshape(-1, 1)).reshape(own.shape)
+    error = _errors(models, chosen, states, own.reshape(-1, 1)).reshape(own.shape)
     for place in np.ndindex(*own.shape):
         yield models.row(
             "profile_error",

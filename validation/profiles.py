@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 EXPONENTS = np.geomspace(0.05, 1000.0, 240)  # brackets of the search for γ; beyond lies plug flow
+COARSE = 4  # every so many of them suffice to start a search that brackets by itself
 TIE = 1e-12  # plug flow counts as closest if no exponent projects better than by this share
-CHUNK = 20_000  # profiles searched at once, to bound memory
 
 
 class ClosestProfile(NamedTuple):
@@ -45,15 +45,29 @@ def closest_profile(
     """
     w = np.ones_like(y) if weights is None else weights
     v = np.asarray(velocities, dtype=float)
-    shapes = 1.0 - y[None, :] ** EXPONENTS[:, None]
-    plug = (y < 1.0).astype(float)
-    bases = np.vstack([shapes, plug])
-    bases /= np.sqrt(np.sum(w * bases**2, axis=1))[:, None]
-    best = np.concatenate([_best_shape(v[n : n + CHUNK] * w, bases) for n in range(0, max(len(v), 1), CHUNK)])
+    best = _best_shapes(v, w, y, EXPONENTS)
     velocity, exponent, error = np.empty(len(v)), np.empty(len(v)), np.empty(len(v))
     logarithm = np.log(np.where(y > 0, y, 1.0))
     _refine(v, w, y, logarithm, best, EXPONENTS, velocity, exponent, error)
     return ClosestProfile(velocity, exponent, error)
+
+
+def nearest_exponents(velocities: Array, y: Array) -> Array:
+    """Exponent of a coarse grid that is nearest to each profile's closest one, (n,): where to search."""
+    grid = EXPONENTS[::COARSE]
+    best = _best_shapes(velocities, np.ones_like(y), y, grid)
+    return np.asarray(grid[np.minimum(best, grid.size - 1)])
+
+
+def _best_shapes(v: Array, w: Array, y: Array, exponents: Array) -> NDArray[np.int64]:
+    """Index of the exponent whose shape is closest to each profile; one beyond the last is plug flow."""
+    shapes = 1.0 - y[None, :] ** exponents[:, None]
+    plug = (y < 1.0).astype(float)
+    bases = np.vstack([shapes, plug])
+    bases /= np.sqrt(np.sum(w * bases**2, axis=1))[:, None]
+    best = np.empty(len(v), dtype=np.int64)
+    _best_shape(v, w, np.ascontiguousarray(bases.T), best)
+    return best
 
 
 def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
@@ -73,7 +87,14 @@ def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
     ndarray (n, m)
         ‖v − u s‖/‖v‖ with the best u; NaN for a profile that is zero everywhere.
     """
-    shapes = 1.0 - y ** exponents[..., None]
+    return errors_of(velocities, 1.0 - y ** exponents[..., None])
+
+
+def errors_of(velocities: Array, shapes: Array) -> Array:
+    """Relative error of each profile (n, n_y) from the best multiple of given shapes (n, m, n_y), (n, m).
+
+    NaN for a profile that is zero everywhere.
+    """
     best = np.einsum("nk,nmk->nm", velocities, shapes) / np.sum(shapes**2, axis=2)
     rest = np.linalg.norm(velocities[:, None, :] - best[..., None] * shapes, axis=2)
     size = np.broadcast_to(np.linalg.norm(velocities, axis=1)[:, None], rest.shape)
@@ -82,12 +103,26 @@ def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
     return error
 
 
-def _best_shape(weighted: Array, bases: Array) -> NDArray[np.int64]:
-    """Index of the unit shape that each profile projects on best; the last, plug flow, wins ties."""
-    score = np.abs(weighted @ bases.T)
-    best = np.argmax(score, axis=1)
-    plug = score[:, -1] >= (1.0 - TIE) * np.max(score, axis=1)
-    return np.where(plug, len(bases) - 1, best)
+@njit(cache=True, nogil=True, error_model="numpy")
+def _best_shape(v: Array, w: Array, bases: Array, best: NDArray[np.int64]) -> None:
+    """Index of the unit shape (n_y, m) that each profile projects on best; the last, plug flow, wins ties.
+
+    A kernel and not a matrix product: the threads of a linear algebra library wait for each other at full
+    speed, and take the processor from variants that are computed beside this one.
+    """
+    last = bases.shape[1] - 1
+    score = np.empty(last + 1)
+    for n in range(v.shape[0]):
+        score[:] = 0.0
+        for k in range(w.size):
+            weighted = w[k] * v[n, k]
+            for m in range(last + 1):
+                score[m] += weighted * bases[k, m]
+        found, largest = 0, abs(score[0])
+        for m in range(1, last + 1):
+            if abs(score[m]) > largest:
+                found, largest = m, abs(score[m])
+        best[n] = last if abs(score[last]) >= (1.0 - TIE) * largest else found
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

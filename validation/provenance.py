@@ -53,7 +53,8 @@ def _git(folder: Path, *arguments: str) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()  # noqa: S603
 
 
-def _installed(name: str) -> str | None:
+def installed(name: str) -> str | None:
+    """Version of an installed package; None where it is not."""
     try:
         return version(name)
     except PackageNotFoundError:
@@ -80,9 +81,9 @@ def provenance(case: Path, inputs: Iterable[Path], command: list[str]) -> dict[s
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "command": " ".join(command),
         "git_commit": git_commit(Path(__file__).parent),
-        "package_version": _installed(PACKAGE),
+        "package_version": installed(PACKAGE),
         "python": platform.python_version(),
-        "versions": {name: found for name in LIBRARIES if (found := _installed(name))},
+        "versions": {name: found for name in LIBRARIES if (found := installed(name))},
         "machine": {
             "system": platform.platform(),
             "processor": platform.processor() or platform.machine(),

@@ -65,7 +65,8 @@ class Rays:
 
     def mean(self, values: Array) -> Array:
         """Mean over each ray with weight y dy, (..., n_y) → (...): 2∫₀¹ f y dy by Simpson's rule."""
-        return np.asarray(values @ (2.0 * self.y * simpson(np.eye(self.y.size), x=self.y, axis=-1)))
+        weights = 2.0 * self.y * simpson(np.eye(self.y.size), x=self.y, axis=-1)
+        return np.asarray(np.einsum("...k,k->...", values, weights))
 
 
 def rays(x: Array, phi: Array, points: int = POINTS_PER_RAY) -> Rays:

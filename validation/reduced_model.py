@@ -45,6 +45,22 @@ class ReducedModelRun:
     description: dict[str, Any]
 
 
+def run_times(case: Case, instants: Floats) -> Floats:
+    """Return the times through which a run goes to stop at instants of its last cycle, s.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    instants : ndarray (n,)
+        Times within the last cycle, counted from the start of the run, s.
+    """
+    period, cycles = case.inlet.period, case.solver.cycles
+    begin, end = (cycles - 1) * period, cycles * period
+    milestones = np.linspace(0.0, begin, 10 * (cycles - 1) + 1)
+    return np.unique(np.concatenate([milestones, instants, [end]]))
+
+
 def run_reduced_model(
     case: Case, alignment: Alignment, rays: Rays, progress: Progress | None = None
 ) -> ReducedModelRun:
@@ -59,9 +75,7 @@ def run_reduced_model(
     """
     period, cycles = case.inlet.period, case.solver.cycles
     begin, end = (cycles - 1) * period, cycles * period
-    milestones = np.linspace(0.0, begin, 10 * (cycles - 1) + 1)
-    times = np.unique(np.concatenate([milestones, alignment.rom_times, [end]]))
-    dataset = run_case(case, times, progress)
+    dataset = run_case(case, run_times(case, alignment.rom_times), progress)
     kept = dataset.sel(time=alignment.rom_times)
     values = {name: kept[name].to_numpy() for name in COMPARED}
     u, gamma = values["mean_velocity"], values["profile_exponent"]

@@ -1,11 +1,12 @@
-"""Run every variant of a case: its reference onto the cells, then the reduced model at its instants."""
+"""Run every variant of a case: its reference onto the cells, and the reduced model at its instants."""
 
 import threading
 import time
-from collections.abc import Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import Any
 
 from rich.console import Console
 from rich.progress import Progress as Display
@@ -18,11 +19,12 @@ from validation.cache import Cache
 from validation.cached_runs import cached_reference, cached_rom
 from validation.comparison import VariantRun
 from validation.errors import ValidationError
-from validation.rays import rays
-from validation.reference import Progress, ReferenceKind
+from validation.rays import Rays, rays
+from validation.reduced_model import ReducedModelRun
+from validation.reference import Progress, Reference, ReferenceKind
 from validation.reference_kinds import REFERENCE_KINDS
 
-WORKERS = 2  # variants at once: mapping and stepping release the interpreter's lock
+WORKERS = 2  # computations at once: mapping and stepping release the interpreter's lock
 
 
 class _StoppedError(Exception):
@@ -82,44 +84,70 @@ def kind_of(name: str, case: Case) -> ReferenceKind:
     return REFERENCE_KINDS[case.reference.kind]
 
 
-def run_variant(name: str, case: Case, alignment: Alignment, watch: Watch) -> VariantRun:
-    """Map the reference of one variant, then run the reduced model.
+def run_variants(
+    cases: Mapping[str, Case],
+    alignments: Mapping[str, Alignment],
+    watch: Watch,
+    meanwhile: Callable[[], None] = lambda: None,
+) -> Iterator[tuple[str, VariantRun]]:
+    """Map all references and run the reduced models, two at a time, and give each variant as it is done.
+
+    References take longest, so they go first and the short runs fill what processor is left over. The
+    order of variants may be any. The first error stops the others and is raised.
+
+    Parameters
+    ----------
+    cases, alignments : mapping
+        By variant.
+    watch : Watch
+    meanwhile : callable, optional
+        Called here once while others compute.
 
     Raises
     ------
     ValidationError
         As the kind of reference and the solver raise.
     """
-    grid = grid_of(case)
-    points = rays(grid.x, grid.phi)
-    with watch.step(f"{name}: 3D onto cells") as progress:
-        reference = cached_reference(
-            watch.cache, kind_of(name, case), case, points, progress, alignment, watch.remarks.append
-        )
-    with watch.step(f"{name}: reduced model") as progress:
-        try:
-            rom = cached_rom(watch.cache, case, alignment, points, progress, watch.remarks.append)
-        except SolverError as error:
-            raise ValidationError(f"variant {name!r}: {error}") from error
-    return VariantRun(case, rom, reference)
-
-
-def run_variants(
-    cases: Mapping[str, Case], alignments: Mapping[str, Alignment], watch: Watch
-) -> Iterator[tuple[str, VariantRun]]:
-    """Run all variants, two at a time, and give each as it is done, which may be in any order.
-
-    The first error stops the others and is raised.
-    """
     pool = ThreadPoolExecutor(max_workers=WORKERS)
     try:
-        names = {
-            pool.submit(run_variant, name, case, alignments[name], watch): name
+        references = {
+            name: pool.submit(_reference, name, case, alignments[name], watch) for name, case in cases.items()
+        }
+        roms = {
+            name: pool.submit(_reduced_model, name, case, alignments[name], watch)
             for name, case in cases.items()
         }
+        meanwhile()
+        names: dict[Future[Any], str] = {part[name]: name for part in (references, roms) for name in cases}
         for future in as_completed(names):
-            yield names.pop(future), future.result()
+            name = names.pop(future)
+            future.result()
             del future  # and with it what it gave
+            if name not in names.values():
+                yield name, VariantRun(cases[name], roms.pop(name).result(), references.pop(name).result())
     finally:
         watch.stop.set()
         pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _reference(name: str, case: Case, alignment: Alignment, watch: Watch) -> Reference:
+    """Map the reference of one variant."""
+    with watch.step(f"{name}: 3D onto cells") as progress:
+        kind = kind_of(name, case)
+        return cached_reference(
+            watch.cache, kind, case, _points(case), progress, alignment, watch.remarks.append
+        )
+
+
+def _reduced_model(name: str, case: Case, alignment: Alignment, watch: Watch) -> ReducedModelRun:
+    """Run the reduced model of one variant at the instants of its reference."""
+    with watch.step(f"{name}: reduced model") as progress:
+        try:
+            return cached_rom(watch.cache, case, alignment, _points(case), progress, watch.remarks.append)
+        except SolverError as error:
+            raise ValidationError(f"variant {name!r}: {error}") from error
+
+
+def _points(case: Case) -> Rays:
+    grid = grid_of(case)
+    return rays(grid.x, grid.phi)

@@ -43,6 +43,20 @@ def interface_radius(
     guess : ndarray (n_x, n_phi)
         Face tried first; receives the face found.
     """
+    radius = np.empty(guess.shape)
+    _on_rays(*_maps(points, faces, chord), x, phi, chord, guess, radius)
+    return radius
+
+
+def radius_at(points: Array, faces: Integers, x: Array, phi: Array, guess: Integers) -> Array:
+    """Wall radius at pairs (x, φ), (n,), m; −1 where no face is met. Parameters as above, each (n,)."""
+    radius = np.empty(guess.shape)
+    _at_pairs(*_maps(points, faces, False), x, phi, guess, radius)
+    return radius
+
+
+def _maps(points: Array, faces: Integers, chord: bool) -> tuple[Array, Flags]:
+    """Polynomials of all faces, (n_f, 4, 3), in x, y, z or x, φ, r; and which are triangles."""
     corners = points[faces]
     if not chord:
         angle = np.arctan2(corners[..., 2], corners[..., 1])
@@ -50,9 +64,7 @@ def interface_radius(
         corners = np.stack([corners[..., 0], angle, np.hypot(corners[..., 1], corners[..., 2])], axis=-1)
     triangle = faces[:, 2] == faces[:, 3]
     matrices = np.where(triangle[:, None, None], _TRIANGLE, _QUADRILATERAL)
-    radius = np.empty(guess.shape)
-    _on_rays(matrices @ corners, triangle, x, phi, chord, guess, radius)
-    return radius
+    return np.asarray(matrices @ corners), triangle
 
 
 def _wrapped(angle: Array) -> Array:
@@ -122,6 +134,27 @@ def _on_face(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _search(
+    maps: Array,
+    triangle: Flags,
+    x: float,
+    phi: float,
+    cosine: float,
+    sine: float,
+    chord: bool,
+    first: int,
+    second: int,
+) -> tuple[float, int]:
+    """Radius on one ray and its face: the first guess, then the second, then all faces; −1 if none."""
+    for n in range(-2, maps.shape[0]):
+        face = n if n >= 0 else (first if n == -2 else second)
+        found = _on_face(maps[face], triangle[face], x, phi, cosine, sine, chord)
+        if found > 0.0:
+            return found, face
+    return -1.0, first
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def _on_rays(
     maps: Array, triangle: Flags, x: Array, phi: Array, chord: bool, guess: Integers, radius: Array
 ) -> None:
@@ -130,17 +163,16 @@ def _on_rays(
     for i in range(x.size):
         previous = guess[max(i - 1, 0), 0]
         for j in range(phi.size):
-            face = guess[i, j]
-            found = _on_face(maps[face], triangle[face], x[i], phi[j], cosine[j], sine[j], chord)
-            if found <= 0.0:
-                face = previous
-                found = _on_face(maps[face], triangle[face], x[i], phi[j], cosine[j], sine[j], chord)
-            candidate = 0
-            while found <= 0.0 and candidate < maps.shape[0]:
-                face = candidate
-                found = _on_face(maps[face], triangle[face], x[i], phi[j], cosine[j], sine[j], chord)
-                candidate += 1
-            if found > 0.0:
-                guess[i, j] = face
-                previous = face
-            radius[i, j] = found
+            radius[i, j], guess[i, j] = _search(
+                maps, triangle, x[i], phi[j], cosine[j], sine[j], chord, guess[i, j], previous
+            )
+            previous = guess[i, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _at_pairs(maps: Array, triangle: Flags, x: Array, phi: Array, guess: Integers, radius: Array) -> None:
+    """Fill ``radius`` at pairs (x, φ)."""
+    previous = guess[0]
+    for n in range(x.size):
+        radius[n], guess[n] = _search(maps, triangle, x[n], phi[n], 1.0, 0.0, False, guess[n], previous)
+        previous = guess[n]

@@ -103,7 +103,8 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
     ramp = offset if offset > 0 else RAMP_SHARE * period
     if not isinstance(case.inlet, VelocityInlet):
         raise _refused("inlet.kind", case.inlet.kind, "velocity")
-    inflow = _signal(case.inlet.waveform, case.inlet.value, case.inlet.fourier)
+    inlet = case.inlet
+    inflow = partial(_scaled, _signal(inlet.waveform, inlet.value, inlet.fourier), inlet.scale)
     return ArteryModel(
         vessel=Vessel(geometry.length, geometry.radius, geometry.wall_thickness),
         size=choices.size,
@@ -193,6 +194,10 @@ def _signal(waveform: Waveform | None, value: float | None, fourier: FourierSeri
     if fourier is not None:
         return partial(_fourier, fourier)
     return partial(np.full_like, fill_value=value)
+
+
+def _scaled(signal: Signal, factor: float, time: Floats) -> Floats:
+    return np.asarray(factor * signal(time))
 
 
 def _fourier(series: FourierSeries, time: Floats) -> Floats:

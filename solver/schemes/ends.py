@@ -29,7 +29,7 @@ def section_flow(p: Parameters, flow: Array) -> float:
     total = 0.0
     for j in range(flow.size):
         total += flow[j]
-    return 0.5 * p.dphi * total
+    return p.sector * total
 
 
 @inlined_kernel
@@ -65,7 +65,7 @@ def end_areas(p: Parameters, ws: Workspace, theta: float) -> tuple[int, int, int
 
 
 @kernel
-def face_areas(mean_area: Array, end_area: Array, inlet_kind: int, area: Array) -> None:
+def face_areas(mean_area: Array, end_area: Array, inlet_kind: int, mirrored: bool, area: Array) -> None:
     """Mean areas of all faces, with ghosts: half-way between cells, at the ends from the end's pressure.
 
     At a velocity or flow inlet, which has no pressure of its own, half a cell beyond the first two cells.
@@ -81,7 +81,7 @@ def face_areas(mean_area: Array, end_area: Array, inlet_kind: int, area: Array) 
         else:
             area[0, j + 1] = 1.5 * mean_area[0, j] - 0.5 * mean_area[1, j]
     for f in range(n_x + 1):
-        wrap(area, f)
+        wrap(area, f, mirrored)
 
 
 @inlined_kernel
@@ -181,8 +181,8 @@ def close_outlet(p: Parameters, s: Stepping, ws: Workspace) -> None:
             gap = a[j] + b[j] * base - ws.end_pressure[OUTLET, j]
             _close_last_cell(ws, j, c, gap / (1.0 + b[j] * slope))
         else:
-            total_flow += 0.5 * p.dphi * base
-            total_slope += 0.5 * p.dphi * slope
+            total_flow += p.sector * base
+            total_slope += p.sector * slope
     if not by_row:
         gap = a[0] + b[0] * total_flow - ws.end_pressure[OUTLET, 0]
         for j in range(a.size):

@@ -28,6 +28,10 @@ class Parameters(NamedTuple):
     ----------
     dx, dphi : float
         m, rad.
+    sector : float
+        Flow rate of a section over the sum of its rows' Q: ½Δφ, or Δφ where each row stands for two.
+    mirrored : bool
+        Whether the rows are one half of the ring, and the other half is its mirror image.
     radius, reference_pressure : float
         R₀, m, and P₀, Pa.
     density, kinematic_viscosity : float
@@ -50,6 +54,8 @@ class Parameters(NamedTuple):
 
     dx: float
     dphi: float
+    sector: float
+    mirrored: bool
     radius: float
     reference_pressure: float
     density: float

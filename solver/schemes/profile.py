@@ -13,11 +13,11 @@ POISEUILLE = 2.0  # γ of a section at rest: the limit of slow equal rows
 
 
 @kernel
-def wrap(values: Array, f: int) -> None:
-    """Fill the two ghosts of a periodic row."""
+def wrap(values: Array, f: int, mirrored: bool) -> None:
+    """Fill the two ghosts of a face's rows: periodic, or the mirror images of the first and the last row."""
     last = values.shape[1] - 1
-    values[f, 0] = values[f, last - 1]
-    values[f, last] = values[f, 1]
+    values[f, 0] = values[f, 1] if mirrored else values[f, last - 1]
+    values[f, last] = values[f, last - 1] if mirrored else values[f, 1]
 
 
 @summing_kernel
@@ -109,6 +109,7 @@ def closure_sources(
     area: Array,
     scale: float,
     dphi: float,
+    mirrored: bool,
     inverse_area: Array,
     velocity: Array,
     inverse_share: Array,
@@ -128,6 +129,8 @@ def closure_sources(
         Δt μ/ρ, m².
     dphi : float
         rad.
+    mirrored : bool
+        Whether the rows are one half of the ring.
     inverse_area, velocity : ndarray (n_x + 1, n_phi)
         Scratch: 1/A and u.
     inverse_share : ndarray (n_x + 1, n_phi + 2)
@@ -146,7 +149,7 @@ def closure_sources(
         d = _velocities(f, flow, area, inverse_area, velocity)
         axis_velocity[f] = d
         if abs(d) > REST_VELOCITY and _exponents(f, d, velocity, inverse_share, alpha, source):
-            wrap(inverse_share, f)
+            wrap(inverse_share, f, mirrored)
         elif _at_rest(velocity, f):
             axis_velocity[f] = 0.0
         else:

@@ -73,7 +73,7 @@ def _means(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[i
 @inlined_kernel
 def _coefficients(p: Parameters, s: Stepping, ws: Workspace) -> tuple[int, int, int]:
     """α and Δt S on every face at the means; the failure (status, i, j) if there is one."""
-    face_areas(ws.mean_area, ws.end_area, p.inlet_kind, ws.face_area)
+    face_areas(ws.mean_area, ws.end_area, p.inlet_kind, p.mirrored, ws.face_area)
     scale = s.time_step * p.kinematic_viscosity
     if p.fixed_exponent > 0.0:
         fixed_sources(ws.face_area, p.fixed_exponent, scale, ws.alpha, ws.damping)
@@ -83,6 +83,7 @@ def _coefficients(p: Parameters, s: Stepping, ws: Workspace) -> tuple[int, int, 
         ws.face_area,
         scale,
         p.dphi,
+        p.mirrored,
         ws.inverse_area,
         ws.velocity,
         ws.inverse_share,
@@ -246,7 +247,7 @@ def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     """Take the iterate as the new state; A' from the fluxes, so that mass is kept to round-off."""
     flow, new_flow = fields.flow, ws.iterate_flow
     n_x = fields.area.shape[0]
-    sector = 0.5 * p.dphi * s.time_step
+    sector = p.sector * s.time_step
     for j in range(flow.shape[1]):
         ws.exchanged[0] += sector * ((1.0 - s.theta) * flow[0, j] + s.theta * new_flow[0, j])
         ws.exchanged[1] += sector * ((1.0 - s.theta) * flow[n_x, j] + s.theta * new_flow[n_x, j])

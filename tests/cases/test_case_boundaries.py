@@ -2,6 +2,7 @@
 
 import pytest
 
+from cases.errors import CaseError
 from cases.schema import (
     FlowInlet,
     NonReflectingOutlet,
@@ -10,6 +11,7 @@ from cases.schema import (
     VelocityInlet,
     WindkesselOutlet,
 )
+from solver.from_case import inlet_signal
 
 INLET = "{kind: velocity, waveform: data/inlet.csv}"
 OUTLET = "{kind: resistance, resistance: 1.358e9 Pa s/m^3, offset: 9330 Pa}"
@@ -121,3 +123,16 @@ def test_a_case_knows_the_files_that_it_was_read_from(folder):
         folder, PRESSURE_INLET, OUTLET, ("reference: {kind: febio, plot_file: data/run.xplt, axis: z}\n", "")
     )
     assert case.input_files == ()
+
+
+def test_an_inlet_may_be_scaled(folder):
+    assert case_of(folder).inlet.scale == 1.0
+    scaled = case_of(folder, INLET.replace("}", ", scale: 1.2}"))
+    signal, own = inlet_signal(scaled), inlet_signal(case_of(folder))
+    assert signal(0.1) == pytest.approx(1.2 * float(own(0.1)), rel=1e-15)
+
+
+@pytest.mark.parametrize("scale", ["0", "-1", "1e9", ".nan", "2 m"])
+def test_scales_that_are_refused(folder, scale):
+    with pytest.raises(CaseError, match=r"inlet\.scale: .*allowed: a number from 0\.001 to 1000"):
+        case_of(folder, INLET.replace("}", f", scale: {scale}}}"))

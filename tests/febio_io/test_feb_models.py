@@ -87,3 +87,17 @@ def test_the_inflow_is_the_cases_waveform(tmp_path):
     assert curve[-1, 0] == pytest.approx(offset + waveform.period)
     found = np.interp(offset + waveform.times, *curve.T)
     assert_allclose(found, waveform.values, rtol=2e-3)
+
+
+def test_a_scaled_inlet_scales_the_inflow_of_the_model(tmp_path):
+    text = READY.read_text(encoding="utf-8")
+    scaled = tmp_path / "scaled.yaml"
+    folder = READY.parents[1].as_posix()
+    text = text.replace("{kind: velocity, ", "{kind: velocity, scale: 1.5, ")
+    scaled.write_text(text.replace("reference_data/", f"{folder}/reference_data/"), encoding="utf-8")
+    curves = []
+    for case in (READY, scaled):
+        path = tmp_path / f"{case.stem}.feb"
+        assert main([str(case), "--variant", "none", "--output", str(path), "--cycles", "1"]) == 0
+        curves.append(Parsed(path).curves()["1"])
+    assert_allclose(curves[1], curves[0] * [1.0, 1.5], rtol=1e-6)

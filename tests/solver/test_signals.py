@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solver.errors import ModelError
-from solver.waveform import FourierSeries, Ramped, Waveform, constant, load_curve, local_minima
+from solver.waveform import FourierSeries, Ramped, Scaled, Waveform, constant, load_curve, local_minima
 
 COEFFICIENTS = st.lists(st.tuples(st.floats(-2, 2), st.floats(-2, 2)), max_size=6)
 
@@ -76,3 +76,16 @@ def test_a_ramp_leads_from_zero_to_the_signal_once():
 def test_ramps_that_are_refused(duration):
     with pytest.raises(ModelError, match="ramp = "):
         Ramped(constant(1.0, 1.0), duration)
+
+
+def test_a_scaled_signal_is_the_signal_times_its_factor():
+    signal = Waveform(np.array([0.0, 0.3, 1.0]), np.array([1.0, 2.0, 1.0]))
+    times = np.linspace(0.0, 3.0, 31)
+    np.testing.assert_array_equal(Scaled(signal, 1.25)(times), 1.25 * signal(times))
+    assert Scaled(signal, 1.25).period == 1.0
+
+
+@pytest.mark.parametrize("factor", [0.0, -1.0, np.nan, np.inf])
+def test_factors_that_are_refused(factor):
+    with pytest.raises(ModelError, match="scale = "):
+        Scaled(constant(1.0, 1.0), factor)

@@ -45,7 +45,7 @@ def closure(area, velocity):
     dphi = 2 * np.pi / area.size
     flow = (velocity * area)[None, :]
     status, _, row = closure_sources(
-        flow, with_ghosts(area), KINEMATIC_VISCOSITY, dphi, *scratch, alpha, source
+        flow, with_ghosts(area), KINEMATIC_VISCOSITY, dphi, False, *scratch, alpha, source
     )
     return status, row, alpha[0], source[0]
 
@@ -126,7 +126,7 @@ def test_areas_of_faces_are_exact_where_the_area_is_linear(kind, inlet):
     slopes = np.array([0.0, 0.1, -0.2, 0.3])
     mean, ends = 10 + np.outer(x, slopes), np.array([np.full(4, 9.0), 10 + 6 * slopes])
     area = np.empty((7, 6))
-    face_areas(mean, ends, kind, area)
+    face_areas(mean, ends, kind, False, area)
     for face in range(7):
         expected = 10 + face * slopes if face else np.full(4, inlet)
         np.testing.assert_allclose(area[face, 1:-1], expected, rtol=1e-14)

@@ -8,6 +8,8 @@ from ruamel.yaml import YAML
 ROOT = Path(__file__).parents[2]
 READY = ROOT / "cases/calcification.yaml"
 RUNS = ROOT / "reference_data/febio"
+GENEROUS = ("radius", "rms_error", "50 %")  # bands for any model, and for none
+IMPOSSIBLE = ("radius", "rms_error", "0.000001 %")
 
 
 def small_case(*variants: str, n_x: int = 12, n_phi: int = 8) -> dict[str, Any]:

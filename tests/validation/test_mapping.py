@@ -69,6 +69,13 @@ class TestMeshOfTheReferencesSize:
         tube, cells, found = reference_size
         assert worst(found["profile_exponent"], tube.gamma(*grid(cells))) < 0.02
 
+    @pytest.mark.parametrize("tetrahedra", KINDS)
+    @pytest.mark.parametrize("exponent", [0.6, 4.0, 9.0, 20.0])
+    def test_exponent_whatever_the_profile(self, tetrahedra, exponent):
+        tube = Tube(tetrahedra=tetrahedra, exponent=exponent, exponent_change=0.1 * exponent)
+        cells = tube.cells(10, 24)
+        assert worst(fields(tube, cells)["profile_exponent"], tube.gamma(*grid(cells))) < 0.02
+
     def test_mean_velocity(self, reference_size):
         tube, cells, found = reference_size
         assert worst(found["mean_velocity"], tube.mean_velocity(*grid(cells))) < 0.01

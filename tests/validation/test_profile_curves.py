@@ -83,3 +83,27 @@ def test_a_reference_without_profiles_has_no_rows(models):
     bare = replace(models, reference=models.reference.assign(axial_velocity=nothing))
     assert list(profile_rows(bare, ABOUT)) == []
     assert np.all(np.isnan(error_curves(bare, ABOUT)))
+
+
+def test_what_the_mesh_does_between_nodes_is_no_error(models):
+    """Profiles known at nodes only are told from what a mesh makes of them, and the curve says the same."""
+    nodes = np.array([0.0, 0.4, 1.0])
+    y = models.reference["y"].to_numpy()
+    k = np.clip(np.searchsorted(nodes, y, side="right") - 1, 0, 1)
+    weight = (y - nodes[k]) / (nodes[k + 1] - nodes[k])
+    gamma = models.reference["profile_exponent"]
+    at_nodes = gamma.to_numpy()[..., None]
+    axial = 0.2 * (1 - (1 - weight) * nodes[k] ** at_nodes - weight * nodes[k + 1] ** at_nodes)
+    rings = np.stack([nodes[k], nodes[k + 1], weight], axis=-1)
+    shape = (gamma.sizes["time"], len(CELLS[0]), len(CELLS[1]), *rings.shape)
+    fields = models.reference.assign(
+        axial_velocity=(("time", "x", "phi", "y"), axial),
+        node_rings=(("time", "compare_x", "compare_phi", "y", "ring"), np.broadcast_to(rings, shape)),
+    )
+    same = replace(models, reference=fields, rom=models.rom.assign(profile_exponent=gamma))
+    without = replace(same, reference=fields.drop_vars("node_rings"))
+    assert max(row.rom for row in profile_rows(same, ABOUT)) < 1e-12
+    assert max(row.rom for row in profile_rows(without, ABOUT)) > 1e-3
+    lowest = EXPONENTS[np.argmin(error_curves(same, ABOUT).to_numpy(), axis=-1)]
+    cells = {"x": np.array(CELLS[0]) - 1, "phi": np.array(CELLS[1]) - 1}
+    assert_allclose(lowest, gamma.sel(time=TIMES, method="nearest").isel(cells), rtol=0.03)

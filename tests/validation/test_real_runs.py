@@ -6,6 +6,7 @@ from small_case import small_case, written
 
 from cases.case_file import load_case_file
 from solver.from_case import inlet_signal
+from validation.curved_section import curved_flow_rate
 from validation.febio_reference import read_febio
 from validation.rays import rays
 
@@ -85,6 +86,19 @@ def test_inflow_is_the_prescribed_velocity_times_the_area(runs):
         prescribed = inlet_signal(case)(found.alignment.cycle_times)
         inflow, area = (found.checks[name].to_numpy() for name in ("inlet_flow_rate", "inlet_area"))
         assert_within(inflow, prescribed * area, 0.01)
+
+
+def test_the_outlets_resistance_feels_the_flow_of_the_mesh(between_corners):
+    """P = offset + resistance × flow holds in FEBio with the mesh's flow, not with that of a round lumen."""
+    case, found = between_corners
+    last = found.fields.isel(x=-1)
+
+    def off(flow):  # mean over the cycle: inertia between the last station and the outlet cancels
+        excess = last["section_pressure"] - case.outlet.offset - case.outlet.resistance * flow
+        return excess.isel(time=slice(1, None)).mean().item()
+
+    assert abs(off(last["section_flow_rate"])) < 4.0
+    assert off(curved_flow_rate(found.fields).isel(x=-1)) < -40.0
 
 
 def test_mass_is_kept_to_a_percent(runs):

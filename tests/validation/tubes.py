@@ -154,6 +154,9 @@ class Tube:
         return rays(x, (np.arange(n_phi) + 0.5) * TURN / n_phi)
 
 
+SHORT = Tube(sectors=8, rings=2, stacks=6, layers=1)
+
+
 def _cartesian(x, phi, r):
     return np.column_stack([x, r * np.cos(phi), r * np.sin(phi)])
 

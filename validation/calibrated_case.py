@@ -1,0 +1,146 @@
+"""Fitted values in YAML: the keys alone, to be copied, and the case file with them."""
+
+import io
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from ruamel.yaml import YAML
+
+from cases.calibration_file import Calibration, stated_number
+from cases.case_file import load_case_file
+from cases.errors import CaseError
+from cases.numeric_keys import numeric_keys
+from validation.errors import ValidationError
+
+SAME = 1e-12  # relative difference of a value that was written and read
+
+Floats = NDArray[np.float64]
+Keys = tuple[str | int, ...]
+
+
+def snippet(calibration: Calibration, values: Floats) -> str:
+    """Return the parameters with values, SI, as a case file states them.
+
+    A list is stated whole, with its other items as the case has them.
+    """
+    root: dict[str, Any] = {}
+    for parameter, value in zip(calibration.parameters, values, strict=True):
+        section: Any = root
+        path = parameter.key.path
+        for depth, (key, below) in enumerate(pairwise(path), start=1):
+            if isinstance(below, int) and key not in section:
+                section[key] = calibration.template.root.find(path[:depth]).plain()
+            section = _below(section, key)
+        section[path[-1]] = stated_number(parameter.key, float(value))
+    fitted = f"fitted with variant {calibration.variant} of {calibration.file.path.name}"
+    return f"# {calibration.title}: {fitted}\n{_dumped(root)}"
+
+
+def _below(section: Any, key: str | int) -> Any:
+    """Return what a section or a list holds under a key; a section gains one where it has none."""
+    return section.setdefault(key, {}) if isinstance(section, dict) else section[key]
+
+
+def calibrated_text(calibration: Calibration, values: Floats) -> str:
+    """Return the case file with other values of the parameters, SI, its comments kept.
+
+    A value goes where the file states it: in the variant, or else in the base, where it holds for all.
+    """
+    content = _yaml().load(calibration.file.text)
+    own = content.get("variants", {}).get(calibration.variant)
+    for parameter, value in zip(calibration.parameters, values, strict=True):
+        path = parameter.key.path
+        places = [tree for tree in (own, content) if tree is not None and _holds(tree, path)]
+        section: Any = places[0] if places else content if own is None else own
+        for key in path[:-1]:
+            section = _below(section, key)
+        section[path[-1]] = stated_number(parameter.key, float(value))
+    return _dumped(content)
+
+
+def _holds(tree: Any, path: Keys) -> bool:
+    """Whether a tree states something under these keys."""
+    for key in path:
+        if isinstance(key, int):
+            if not isinstance(tree, list) or key >= len(tree):
+                return False
+        elif not isinstance(tree, dict) or key not in tree:
+            return False
+        tree = tree[key]
+    return True
+
+
+def _yaml() -> YAML:
+    yaml = YAML()
+    yaml.preserve_quotes = True
+    yaml.width = 4096  # lines stay as they are
+    yaml.indent(mapping=2, sequence=4, offset=2)
+    return yaml
+
+
+def _dumped(content: Any) -> str:
+    stream = io.StringIO()
+    _yaml().dump(content, stream)
+    return stream.getvalue()
+
+
+def check_case(path: Path, calibration: Calibration) -> None:
+    """Refuse, before anything is computed, a path at which :func:`write_case` could not write.
+
+    Raises
+    ------
+    ValidationError
+        As it does, or if the path is the case file itself.
+    """
+    if path.exists() and path.samefile(calibration.file.path):
+        raise ValidationError(f"{path}: is the case file itself; choose another --case")
+    begin = np.array([parameter.start for parameter in calibration.parameters])
+    with _staged_case(path, calibration, begin):
+        pass
+
+
+def write_case(path: Path, calibration: Calibration, values: Floats) -> None:
+    """Write the case file with other values of the parameters, SI, whole or not at all.
+
+    Raises
+    ------
+    ValidationError
+        If it cannot be written, or would not be the same case there: files that it names are looked for in
+        its folder and those above.
+    """
+    with _staged_case(path, calibration, values) as partial:
+        partial.replace(path)
+
+
+@contextmanager
+def _staged_case(path: Path, calibration: Calibration, values: Floats) -> Iterator[Path]:
+    """Write the case file under a temporary name, and check it there."""
+    partial = path.with_name(f".{path.stem}.{os.getpid()}.yaml")
+    try:
+        partial.write_text(calibrated_text(calibration, values), encoding="utf-8")
+        _require_values(partial, calibration, values)
+        yield partial
+    except OSError as error:
+        raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
+    except CaseError as error:
+        message = str(error).replace(str(partial), str(path))
+        raise ValidationError(f"{path}: would be no case file in this folder:\n{message}") from error
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _require_values(path: Path, calibration: Calibration, values: Floats) -> None:
+    """Refuse a case file in which the variant has other values."""
+    keys = numeric_keys(load_case_file(path).variants[calibration.variant])
+    for parameter, value in zip(calibration.parameters, values, strict=True):
+        read = keys[parameter.key.name].value
+        if read is None or abs(read - value) > SAME * abs(value):
+            raise ValidationError(
+                f"{calibration.file.path}: {parameter.key.name} cannot be replaced in it; copy it by hand"
+            )

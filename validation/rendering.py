@@ -1,0 +1,28 @@
+"""The report of a finished comparison, whose libraries load while the models are computed."""
+
+from importlib import import_module
+from pathlib import Path
+
+from validation.errors import ValidationError
+
+
+def load_reports() -> None:
+    """Load the package that draws, with Matplotlib and all it needs: about a second."""
+    import_module("reports")
+
+
+def write_reports(directory: Path) -> None:
+    """Write report.html and report.pdf of a finished comparison into its directory.
+
+    Raises
+    ------
+    ValidationError
+        If the directory is not a finished comparison.
+    """
+    from reports import ReportError
+    from reports import write_reports as write
+
+    try:
+        write(directory)
+    except ReportError as error:
+        raise ValidationError(str(error)) from error

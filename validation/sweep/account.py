@@ -1,0 +1,77 @@
+"""study.json: what a sweep is, how far it is, and what its indices say."""
+
+import hashlib
+import json
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, Literal
+
+from validation.cached_runs import canonical, code_digest
+from validation.output import write_json, write_text
+from validation.provenance import git_commit, installed, shown_path
+from validation.sweep import outputs, parameters
+from validation.sweep.folder import ACCOUNT, STUDY, Counts
+from validation.sweep.judging import STATES
+from validation.sweep.study import Study
+
+State = Literal["running", "interrupted", "finished"]
+LIBRARIES = ("dask", "distributed", "numba", "numpy", "pyarrow", "SALib", "scipy", "xarray")
+
+
+def digest_of(study: Study, chunks: Sequence[range]) -> str:
+    """Digest of what determines a sweep's numbers: cases with their files, design, outputs, chunks, code."""
+    parts = {
+        "cases": {name: case.model_copy(update={"title": ""}) for name, case in study.cases.items()},
+        "parameters": [[p.name, p.kind, dict(p.numbers), p.values] for p in study.parameters],
+        "design": study.design,
+        "against": study.against,
+        "outputs": [output.name for output in study.outputs],
+        "chunks": [[chunk.start, chunk.stop] for chunk in chunks],
+    }
+    stated = {"code": code_digest(), "parts": canonical(parts)}
+    return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
+
+
+def account_of(study: Study, digest: str, total: int, chunk: int) -> dict[str, Any]:
+    """Return what is known before the first sample."""
+    return {
+        "name": study.name,
+        "title": study.title,
+        "base_case": shown_path(study.base),
+        "variants": {name: case.title for name, case in study.cases.items()},
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "git_commit": git_commit(Path(__file__).parent),
+        "versions": {name: found for name in LIBRARIES if (found := installed(name))},
+        "digest": digest,
+        "design": {
+            "kind": study.design.kind,
+            "samples": total,
+            "count": study.design.count,
+            "seed": study.design.seed,
+            "chunk": chunk,
+        },
+        "against": study.against,
+        "states_per_cycle": None if study.against == "reference" else STATES,
+        "parameters": [parameters.described(parameter) for parameter in study.parameters],
+        "outputs": [outputs.described(output) for output in study.outputs],
+    }
+
+
+def write_account(
+    folder: Path,
+    account: dict[str, Any],
+    state: State,
+    counts: Counts,
+    sensitivity: list[dict[str, Any]] | None = None,
+) -> None:
+    """Write study.json with how far the sweep is."""
+    total = account["design"]["samples"]
+    progress = {"done": counts.done, "failed": counts.failed, "total": total}
+    found = {"state": state, "counts": progress, "sensitivity": sensitivity}
+    write_json(folder / ACCOUNT, account | found)
+
+
+def write_study(folder: Path, study: Study) -> None:
+    """Keep the study as it was read."""
+    write_text(folder / STUDY, study.text)

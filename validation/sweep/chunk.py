@@ -1,0 +1,97 @@
+"""What a worker does: run some samples and return a record of each."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import xarray as xr
+
+from cases.schema import Case
+from solver.batch import run_batch
+from solver.model import Model
+from solver.result import CellHistory, cell_dataset
+from validation.ladder import coupled_model
+from validation.reduced_model import run_times
+from validation.sweep.judging import Standard, instants_of, judged_values
+from validation.sweep.outputs import OWN, Output
+from validation.sweep.samples import Sample
+
+OK, FAILED = "ok", "failed"
+THREADS = 1  # of one task: a cluster runs as many tasks at once as it has processors
+Record = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is wanted of every sample.
+
+    Attributes
+    ----------
+    parameters : tuple of str
+        Names of the parameters.
+    outputs : tuple of Output
+        What is kept.
+    standards : dict of str to Standard
+        What judges, by variant.
+    """
+
+    parameters: tuple[str, ...]
+    outputs: tuple[Output, ...]
+    standards: Mapping[str, Standard]
+
+
+def run_chunk(samples: Sequence[Sample], plan: Plan) -> list[Record]:
+    """Run samples; return a record of each, in their order.
+
+    A sample whose values are not allowed, or whose run fails, gives a record that says so.
+    """
+    return [_record_of(sample, plan) for sample in samples]
+
+
+def failed(sample: Sample, plan: Plan, error: str, seconds: float = 0.0) -> Record:
+    """Return the record of a sample that gave nothing."""
+    return _stated(sample, plan, FAILED, error, seconds) | {output.name: None for output in plan.outputs}
+
+
+def _record_of(sample: Sample, plan: Plan) -> Record:
+    if sample.case is None:
+        return failed(sample, plan, sample.error)
+    standard = plan.standards[sample.variant]
+    cases = [sample.case, *([coupled_model(sample.case)] if standard.against == "coupled" else [])]
+    instants = instants_of(standard, sample.case)
+
+    def last_cycle(model: Model, cells: CellHistory) -> xr.Dataset:
+        return cell_dataset(model, cells).sel(time=instants)
+
+    outcomes = run_batch(cases, run_times(sample.case, instants), last_cycle, THREADS)
+    seconds = sum(outcome.cpu_s for outcome in outcomes)
+    lasts: list[xr.Dataset] = []
+    for words, outcome in zip(("", "the coupled model: "), outcomes, strict=False):
+        if outcome.kept is None:
+            return failed(sample, plan, f"{words}{outcome.error}", seconds)
+        lasts.append(outcome.kept)
+    values = _values(sample.case, standard, lasts, plan.outputs)
+    return _stated(sample, plan, OK, None, seconds) | values
+
+
+def _stated(sample: Sample, plan: Plan, status: str, error: str | None, seconds: float) -> Record:
+    about = {"sample": sample.number, "variant": sample.variant, "status": status, "error": error}
+    return about | {"seconds": seconds} | dict(zip(plan.parameters, sample.values, strict=True))
+
+
+def _values(
+    case: Case, standard: Standard, lasts: Sequence[xr.Dataset], outputs: Sequence[Output]
+) -> dict[str, float | None]:
+    """Return all outputs of a sample from its last cycle and that of the coupled model, where that judges."""
+    own = {output.name: OWN[output.name][1](case, lasts[0]) for output in outputs if output.name in OWN}
+    judged = [output for output in outputs if output.bands]
+    other = lasts[1] if len(lasts) > 1 else None
+    found = judged_values(standard, case, lasts[0], other, [output.bands[0] for output in judged])
+    values = own | {output.name: value for output, value in zip(judged, found, strict=True)}
+    return {output.name: _finite(values[output.name]) for output in outputs}
+
+
+def _finite(value: float | None) -> float | None:
+    """Return a number, or None for what has no meaning in a sample."""
+    return None if value is None or not math.isfinite(value) else value

@@ -1,0 +1,185 @@
+"""What is kept of each sample: numbers of its last cycle, and how far it is from what judges it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from cases.comparison import Band
+from cases.fields import FIELDS, Field
+from cases.schema import Case, LocalCalcification, NoCalcification
+from validation.cycle_quantities import CYCLE_QUANTITIES
+from validation.sweep.judging import Against, judged_bands
+
+Floats = NDArray[np.float64]
+Measure = Callable[[Case, xr.Dataset], float]
+
+
+@dataclass(frozen=True)
+class Output:
+    """One number of a sample.
+
+    Attributes
+    ----------
+    name, label : str
+        Column in the dataset; words for people.
+    unit, display_unit : str
+        SI unit of stored values; unit people read.
+    display_factor : float
+        Display value = stored value × display_factor.
+    bands : tuple of Band
+        What is judged: one declared band or more, or one that has no limit; empty where nothing is.
+    """
+
+    name: str
+    label: str
+    unit: str
+    display_unit: str
+    display_factor: float
+    bands: tuple[Band, ...] = ()
+
+
+def _at_end(index: int, number: Callable[[Floats], float]) -> Measure:
+    def measure(_case: Case, last: xr.Dataset) -> float:
+        return number(last["section_pressure"].isel(x=index).to_numpy())
+
+    return measure
+
+
+def _mean_over_cycle(index: int) -> Measure:
+    def measure(_case: Case, last: xr.Dataset) -> float:
+        pressure, times = last["section_pressure"].isel(x=index).to_numpy(), last["time"].to_numpy()
+        return float(np.trapezoid(pressure, times) / (times[-1] - times[0]))
+
+    return measure
+
+
+def _of_cycle(name: str) -> Measure:
+    return lambda _case, last: CYCLE_QUANTITIES[name](last)
+
+
+def _patch_section(case: Case, last: xr.Dataset) -> int:
+    """Section nearest to the centre of the calcification, of several the first; mid-length without one."""
+    parts = case.calcification.parts
+    ends = parts[0].x if parts else (0.0, case.geometry.length)
+    return int(np.argmin(np.abs(last["x"].to_numpy() - 0.5 * (ends[0] + ends[1]))))
+
+
+def _patch_row(case: Case, last: xr.Dataset) -> int:
+    """Row nearest to the centre of the calcification; the first one of a ring, whose rows are alike."""
+    part = next(iter(case.calcification.parts), None)
+    if not isinstance(part, LocalCalcification):
+        return 0
+    first, end = part.phi
+    centre = first + 0.5 * ((end - first) % (2.0 * np.pi))
+    apart = np.exp(1j * last["phi"].to_numpy()) - np.exp(1j * centre)
+    return int(np.argmin(np.abs(apart)))
+
+
+def _growth(radius: Floats) -> float:
+    return float(radius.max() / radius.min() - 1.0)
+
+
+def _radius_change(case: Case, last: xr.Dataset) -> float:
+    section = last["radius"].isel(x=_patch_section(case, last))
+    return _growth(section.mean("phi").to_numpy())
+
+
+def _calcified_radius_change(case: Case, last: xr.Dataset) -> float:
+    section = last["radius"].isel(x=_patch_section(case, last))
+    return _growth(section.isel(phi=_patch_row(case, last)).to_numpy())
+
+
+def _flow_amplitude(_case: Case, last: xr.Dataset) -> float:
+    middle = last["section_flow_rate"].isel(x=last.sizes["x"] // 2)
+    return float(middle.max() - middle.min())
+
+
+def _like(name: str, label: str, field: Field) -> Output:
+    return Output(name, label, field.unit, field.display_unit, field.display_factor)
+
+
+def _percent(name: str, label: str) -> Output:
+    return Output(name, label, "1", "%", 100.0)
+
+
+def _own_outputs() -> dict[str, tuple[Output, Measure]]:
+    found: list[tuple[Output, Measure]] = []
+    for place, index in (("inlet", 0), ("outlet", -1)):
+        kinds: tuple[tuple[str, Measure], ...] = (
+            ("systolic", _at_end(index, lambda p: float(p.max()))),
+            ("diastolic", _at_end(index, lambda p: float(p.min()))),
+            ("mean", _mean_over_cycle(index)),
+            ("pulse", _at_end(index, lambda p: float(p.max() - p.min()))),
+        )
+        for kind, measure in kinds:
+            label = f"{kind} pressure at the {place}"
+            found.append((_like(f"{kind}_pressure_{place}", label, FIELDS["pressure"]), measure))
+    change = "largest radius change at the calcification"
+    found += [
+        (_percent("radius_change", f"{change}, mean of the section"), _radius_change),
+        (_percent("radius_change_calcified", f"{change}, calcified row"), _calcified_radius_change),
+        (
+            _like(
+                "flow_amplitude", "largest less least flow rate at mid-length", FIELDS["section_flow_rate"]
+            ),
+            _flow_amplitude,
+        ),
+    ]
+    kept = ("largest_radius", "least_radius", "largest_pressure_difference", "largest_radius_variation")
+    found += [(_like(name, FIELDS[name].label, FIELDS[name]), _of_cycle(name)) for name in kept]
+    return {output.name: (output, measure) for output, measure in found}
+
+
+OWN: Mapping[str, tuple[Output, Measure]] = MappingProxyType(_own_outputs())
+
+STATISTICS = MappingProxyType(
+    {
+        "rms_error": "RMS error",
+        "max_error": "largest error",
+        "bias": "mean error",
+        "scatter": "scatter of the error",
+        "systolic_error": "systolic error",
+        "diastolic_error": "diastolic error",
+        "rms_difference": "RMS difference",
+        "max_difference": "largest difference",
+    }
+)
+
+
+def judged_output(bands: tuple[Band, ...]) -> Output:
+    """Return the output that bands of one quantity and one statistic judge."""
+    band = bands[0]
+    name, field = f"{band.quantity}_{band.statistic}", FIELDS[band.quantity]
+    label = f"{STATISTICS[band.statistic]} of the {field.label}"
+    if band.relative:
+        return Output(name, label, "1", "%", 100.0, bands)
+    return Output(name, label, field.unit, field.display_unit, field.display_factor, bands)
+
+
+def offered_outputs(cases: Mapping[str, Case], against: Against) -> dict[str, Output]:
+    """Return all outputs that a study of these cases, by variant, may keep, by name."""
+    calcified = not all(isinstance(case.calcification, NoCalcification) for case in cases.values())
+    own = {
+        name: output for name, (output, _) in OWN.items() if calcified or name != "radius_change_calcified"
+    }
+    judged = [judged_output(bands) for bands in judged_bands(cases, against)]
+    return own | {output.name: output for output in judged}
+
+
+def described(output: Output) -> dict[str, Any]:
+    """Return an output for study.json: with the limits and reasons of the bands that judge it."""
+    declared = [band for band in output.bands if np.isfinite(band.limit)]
+    limits = [{"limit": b.limit, "reason": b.reason, "variants": b.variants} for b in declared]
+    return {
+        "name": output.name,
+        "label": output.label,
+        "unit": output.display_unit,
+        "unit_si": output.unit,
+        "display_factor": output.display_factor,
+        "band": limits[0] if limits else None,
+    }

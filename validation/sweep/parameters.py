@@ -1,0 +1,119 @@
+"""What a study says of one parameter: values to take, or how they are distributed."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from cases.numeric_keys import NumericKey
+from validation.sweep.display import Display
+
+Floats = NDArray[np.float64]
+MOST_VALUES = 100_000
+
+# what each distribution needs and what it may have besides; a spread is a difference of two values
+NEEDED = MappingProxyType(
+    {
+        "uniform": ("low", "high"),
+        "loguniform": ("low", "high"),
+        "triangular": ("low", "mode", "high"),
+        "normal": ("mean", "standard_deviation"),
+    }
+)
+OPTIONAL = MappingProxyType({"normal": ("low", "high")})
+SPREAD = "standard_deviation"
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of the case that is varied.
+
+    Attributes
+    ----------
+    key : NumericKey
+        Which one.
+    label : str
+        Words for people.
+    display : Display
+        How people read its values.
+    kind : str
+        ``list``, ``range`` or the name of a distribution.
+    numbers : mapping of str to float
+        What the study states of a distribution, SI.
+    values : ndarray or None
+        The values of a list or range, SI; None for a distribution.
+    """
+
+    key: NumericKey
+    label: str
+    display: Display
+    kind: str
+    numbers: Mapping[str, float]
+    values: Floats | None = None
+
+    @property
+    def name(self) -> str:
+        """Its key in the case, which is its column in the dataset."""
+        return self.key.name
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Least and largest value that may be drawn; infinite where a distribution has no end."""
+        if self.values is not None:
+            return float(self.values.min()), float(self.values.max())
+        return self.numbers.get("low", -math.inf), self.numbers.get("high", math.inf)
+
+    def at(self, share: Floats) -> Floats:
+        """Values at shares of the probability in (0, 1); those of a list are equally likely."""
+        if self.values is not None:
+            places = np.minimum((share * self.values.size).astype(int), self.values.size - 1)
+            return np.asarray(self.values[places])
+        return np.asarray(np.clip(QUANTILES[self.kind](self.numbers, share), *self.limits))
+
+
+def _uniform(n: Mapping[str, float], share: Floats) -> Floats:
+    return np.asarray(stats.uniform(n["low"], n["high"] - n["low"]).ppf(share))
+
+
+def _loguniform(n: Mapping[str, float], share: Floats) -> Floats:
+    return np.asarray(stats.loguniform(n["low"], n["high"]).ppf(share))
+
+
+def _triangular(n: Mapping[str, float], share: Floats) -> Floats:
+    width = n["high"] - n["low"]
+    return np.asarray(stats.triang((n["mode"] - n["low"]) / width, n["low"], width).ppf(share))
+
+
+def _normal(n: Mapping[str, float], share: Floats) -> Floats:
+    mean, spread = n["mean"], n[SPREAD]
+    low, high = ((n.get(name, end) - mean) / spread for name, end in (("low", -np.inf), ("high", np.inf)))
+    return np.asarray(stats.truncnorm(low, high, mean, spread).ppf(share))
+
+
+QUANTILES: Mapping[str, Callable[[Mapping[str, float], Floats], Floats]] = MappingProxyType(
+    {"uniform": _uniform, "loguniform": _loguniform, "triangular": _triangular, "normal": _normal}
+)
+
+
+def described(parameter: Parameter) -> dict[str, Any]:
+    """Return a parameter for study.json; numbers in SI, null for an end that a distribution lacks."""
+    low, high = (end if math.isfinite(end) else None for end in parameter.limits)
+    values = None if parameter.values is None else parameter.values.tolist()
+    return {
+        "name": parameter.name,
+        "label": parameter.label,
+        "unit": parameter.display.unit,
+        "unit_si": parameter.key.kind.unit,
+        "display_factor": parameter.display.factor,
+        "kind": parameter.kind,
+        **parameter.numbers,
+        "low": low,
+        "high": high,
+        "values": values,
+        "base": parameter.key.value,
+    }
