@@ -8,11 +8,12 @@ from pathlib import Path
 
 from cases.errors import CaseError
 from febio_io.errors import FebioError
+from reports.errors import ReportError
 from solver.batch import available_threads
 from solver.errors import SolverError
 from validation.errors import ValidationError
 
-EXPECTED = (CaseError, SolverError, FebioError, ValidationError)
+EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
 COMPLETE, WRONG_INPUT, INTERRUPTED = 0, 2, 130
 NEEDED = ("distributed", "locket", "pyarrow", "SALib")
 
@@ -71,6 +72,7 @@ def main(argv: list[str] | None = None) -> int:
     try:
         _check_libraries()
         _check_scheduler(arguments.scheduler)
+        from reports.sweep import write_sweep_page
         from validation.sweep.run import Where, run_sweep
         from validation.sweep.study import load_study
 
@@ -79,6 +81,7 @@ def main(argv: list[str] | None = None) -> int:
         workers = arguments.workers or available_threads()
         where = Where(folder, arguments.scheduler, workers, arguments.fresh)
         counts = run_sweep(study, where, lambda words: print(words, file=sys.stderr))
+        page, _ = write_sweep_page(folder)
     except EXPECTED as error:
         print(error, file=sys.stderr)
         return WRONG_INPUT
@@ -87,7 +90,7 @@ def main(argv: list[str] | None = None) -> int:
         print(f"interrupted; {kept}, and the same command goes on", file=sys.stderr)
         return INTERRUPTED
     words = f", {counts.failed} of them failed" if counts.failed else ""
-    print(f"{study.name}: {counts.done} samples{words}; results in {folder}")
+    print(f"{study.name}: {counts.done} samples{words}; page: {page}")
     return COMPLETE
 
 

@@ -16,6 +16,8 @@ CONNECT_WITHIN = "10s"
 CLOSE_WITHIN = 5.0  # s
 LIBRARIES_WITH_THREADS = ("OMP", "OPENBLAS", "MKL", "NUMBA")
 ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES_WITH_THREADS}
+# a terminal sends Ctrl-C to workers too, which are to be ended by their cluster
+LEAVE_CTRL_C = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)"
 SETTINGS = {
     "distributed.nanny.pre-spawn-environ": {**ONE_THREAD, "MALLOC_TRIM_THRESHOLD_": "65536"},
     "distributed.scheduler.allowed-failures": 3,  # workers that may die with one task
@@ -46,7 +48,7 @@ def connected(scheduler: str, workers: int, tell: Callable[[str], None]) -> Iter
     with dask.config.set(SETTINGS), warnings.catch_warnings():
         warnings.filterwarnings("ignore", module="distributed")
         if scheduler in (PROCESSES, THREADS):
-            with _local(scheduler, workers) as cluster, Client(cluster, set_as_default=False) as client:
+            with _local(scheduler, workers) as cluster, Client(cluster) as client:
                 yield client
         else:
             with _at(scheduler) as client:
@@ -62,6 +64,7 @@ def _local(kind: str, workers: int) -> Iterator[LocalCluster]:
         processes=kind == PROCESSES,
         dashboard_address=None,
         silence_logs=logging.CRITICAL,
+        preload=[LEAVE_CTRL_C] if kind == PROCESSES else [],
         **(own if kind == PROCESSES else shared),
     )
     try:
@@ -73,7 +76,7 @@ def _local(kind: str, workers: int) -> Iterator[LocalCluster]:
 @contextmanager
 def _at(address: str) -> Iterator[Client]:
     try:
-        client = Client(address, timeout=CONNECT_WITHIN, set_as_default=False)
+        client = Client(address, timeout=CONNECT_WITHIN)
     except (OSError, ValueError) as error:
         raise ValidationError(f"--scheduler {address}: no scheduler answers: {error}") from error
     with client:

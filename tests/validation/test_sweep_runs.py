@@ -1,0 +1,234 @@
+"""Sweeps: their numbers are those of ordinary runs, and of a comparison; an interrupted one ends the same."""
+
+import json
+import shutil
+
+import numpy as np
+import pandas as pd
+import pytest
+from pandas.testing import assert_frame_equal
+from small_case import small_case, written
+from small_sweep import GRID, records, small_study, study_file, swept
+
+from cases.case_file import load_case_file
+from solver.case_run import run_case
+from validation import compare
+from validation.errors import ValidationError
+from validation.ladder import coupled_model
+from validation.statistics import rms
+from validation.sweep import run
+from validation.sweep.__main__ import main
+from validation.sweep.folder import claimed
+
+MODULUS = "calcification.youngs_modulus"
+ONE = {MODULUS: ["10 MPa"]}
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """An uninterrupted sweep of six samples in three parts, two samples refused."""
+    folder = tmp_path_factory.mktemp("whole")
+    return small_study(folder), swept(small_study(folder), folder / "out"), folder / "out"
+
+
+def account(folder):
+    return json.loads((folder / "study.json").read_text(encoding="utf-8"))
+
+
+def test_every_sample_is_recorded_once_and_failures_say_why(whole):
+    study, found, folder = whole
+    assert found["sample"].tolist() == list(range(6))
+    assert found["status"].tolist() == ["ok", "ok", "failed"] * 2
+    assert found[MODULUS].tolist() == [1e6] * 3 + [1e7] * 3
+    assert found["error"].isna().tolist() == [True, True, False] * 2
+    assert found["error"][2].startswith("calcification.x[1]: ")
+    names = [output.name for output in study.outputs]
+    assert found[names].notna().all(axis=1).tolist() == [True, True, False] * 2
+    assert sorted(path.name for path in (folder / "samples").iterdir()) == [
+        f"part-{number:06d}.parquet" for number in range(3)
+    ]
+
+
+def test_the_account_tells_what_the_page_needs(whole):
+    study, _, folder = whole
+    found = account(folder)
+    assert (found["state"], found["sensitivity"]) == ("finished", None)
+    assert found["counts"] == {"done": 6, "failed": 2, "total": 6}
+    assert found["design"]["kind"] == "grid"
+    assert [one["name"] for one in found["parameters"]] == list(GRID)
+    assert found["parameters"][1]["unit"] == "mm"
+    assert found["parameters"][1]["base"] == pytest.approx(5e-3)
+    assert {one["name"] for one in found["outputs"]} == {output.name for output in study.outputs}
+    assert (folder / "study.yaml").read_text(encoding="utf-8") == study.text
+
+
+def test_outputs_are_those_of_the_ordinary_run(whole):
+    study, found, _ = whole
+    case = study.cases["local"]
+    period = case.inlet.period
+    last = run_case(case, np.linspace(0.0, period, 101))
+    row = found.iloc[4]  # 10 MPa over 5 mm: the case itself
+    pressure, radius = last["section_pressure"].to_numpy(), last["radius"].to_numpy()
+    assert row["systolic_pressure_inlet"] == pytest.approx(pressure[:, 0].max(), rel=1e-9)
+    assert row["diastolic_pressure_outlet"] == pytest.approx(pressure[:, -1].min(), rel=1e-9)
+    assert row["mean_pressure_inlet"] == pytest.approx(np.trapezoid(pressure[:, 0], dx=0.01), rel=1e-9)
+    flow = last["section_flow_rate"].to_numpy()[:, 6]
+    assert row["flow_amplitude"] == pytest.approx(np.ptp(flow), rel=1e-9)
+    section = int(np.argmin(np.abs(last["x"].to_numpy() - 7.5e-3)))
+    growths = radius[:, section].max(axis=0) / radius[:, section].min(axis=0) - 1.0
+    assert row["radius_change_calcified"] == pytest.approx(growths.min(), rel=1e-9)
+    mean = radius[:, section].mean(axis=1)
+    assert row["radius_change"] == pytest.approx(mean.max() / mean.min() - 1.0, rel=1e-9)
+
+
+def test_errors_against_3d_are_those_of_a_comparison(tmp_path):
+    path = written(small_case("local"), tmp_path)
+    assert compare.main([str(path), "--output", str(tmp_path / "compared")]) == 0
+    metrics = pd.read_csv(tmp_path / "compared/metrics.csv").query("band.notna()")
+    limits = {f"{row.quantity}_{row.statistic}": (row.error, row.band) for row in metrics.itertuples()}
+    study = small_study(tmp_path, parameters=ONE, against="reference")
+    found = swept(study, tmp_path / "out")
+    declared = {one["name"]: one["band"] for one in account(tmp_path / "out")["outputs"] if one["band"]}
+    assert limits.keys() == declared.keys() == {"section_flow_rate_rms_error", "radius_rms_error"}
+    for name, (error, limit) in limits.items():
+        assert found[name][0] == pytest.approx(error, rel=1e-9)
+        assert declared[name]["limit"] == limit
+
+
+def test_errors_against_the_coupled_model_are_those_of_two_runs(tmp_path):
+    study = small_study(tmp_path, parameters=ONE, against="coupled", outputs=["radius_rms_error"])
+    found = swept(study, tmp_path / "out")
+    case = study.cases["local"]
+    times = np.linspace(0.0, case.inlet.period, 101)
+    own, other = (run_case(each, times)["radius"].to_numpy() for each in (case, coupled_model(case)))
+    assert found["radius_rms_error"][0] == pytest.approx(rms(own / other - 1.0), rel=1e-9)
+    assert found["radius_rms_error"][0] > 1e-3
+
+
+def test_a_run_that_fails_is_recorded_with_the_solvers_words(tmp_path):
+    parameters = {"outlet.offset": ["9330 Pa", "-300 kPa"]}
+    found = swept(small_study(tmp_path, parameters=parameters), tmp_path / "out")
+    assert found["status"].tolist() == ["ok", "failed"]
+    assert found["error"][1].startswith("the lumen collapses at P = ")
+
+
+def test_a_limit_that_is_exceeded_ends_its_sample_alone(tmp_path):
+    overrides = {"solver": {"limits": {"advective_courant_number": 1.5}}}
+    study = small_study(tmp_path, parameters={"inlet.scale": [0.5, 2.0]}, overrides=overrides)
+    found = swept(study, tmp_path / "out")
+    assert found["status"].tolist() == ["ok", "failed"]
+    assert found["error"][1].startswith("the Courant number is above its limit at t = ")
+
+
+@pytest.mark.parametrize("lost", [(0,), (1, 2)])
+def test_a_sweep_that_goes_on_ends_as_one_that_was_not_interrupted(whole, tmp_path, monkeypatch, lost):
+    study, expected, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    samples = tmp_path / "out/samples"
+    for number in lost:
+        (samples / f"part-{number:06d}.parquet").unlink()
+    (samples / ".part-000000.parquet.1.part").write_bytes(b"half")
+    kept = {path.name: path.stat().st_mtime_ns for path in samples.glob("part-*")}
+    assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
+    for name, time in kept.items():
+        assert (samples / name).stat().st_mtime_ns == time
+    assert not list(samples.glob(".*"))
+
+
+def test_a_damaged_part_is_computed_again(whole, tmp_path):
+    study, expected, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    part = tmp_path / "out/samples/part-000001.parquet"
+    part.write_bytes(part.read_bytes()[:-20])
+    assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
+
+
+def test_a_finished_sweep_computes_nothing(whole, monkeypatch):
+    study, expected, folder = whole
+    monkeypatch.setattr(run, "connected", None)  # whoever calls it fails
+    assert_frame_equal(swept(study, folder), expected)
+
+
+def test_another_study_is_refused_unless_fresh(whole, tmp_path, capsys):
+    _, _, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    path = study_file(tmp_path, parameters=ONE)
+    command = [str(path), "--output", str(tmp_path / "out"), "--scheduler", "threads", "--workers", "1"]
+    assert main(command) == 2
+    assert "holds a sweep of another study" in capsys.readouterr().err
+    assert len(records(tmp_path / "out")) == 6
+    assert main([*command, "--fresh"]) == 0
+    assert "trial: 1 samples; page: " in capsys.readouterr().out
+    assert len(records(tmp_path / "out")) == 1
+
+
+def test_words_do_not_make_another_study(whole, tmp_path, monkeypatch):
+    _, expected, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    monkeypatch.setattr(run, "connected", None)
+    study = small_study(tmp_path, title="Another title")
+    assert_frame_equal(swept(study, tmp_path / "out"), expected)
+    assert account(tmp_path / "out")["title"] == "Another title"
+
+
+def test_a_folder_of_other_things_and_one_in_use_are_refused(tmp_path):
+    study = small_study(tmp_path)
+    taken = tmp_path / "taken"
+    taken.mkdir()
+    (taken / "thesis.docx").write_text("mine", encoding="utf-8")
+    with pytest.raises(ValidationError, match=r"holds other files than a sweep \(thesis\.docx\)"):
+        swept(study, taken, fresh=True)
+    with claimed(tmp_path / "busy"), pytest.raises(ValidationError, match="another sweep is writing there"):
+        swept(study, tmp_path / "busy")
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    with pytest.raises(ValidationError, match="file: cannot be written"):
+        swept(study, tmp_path / "file")
+
+
+def test_an_account_that_is_damaged_is_refused(whole, tmp_path):
+    study, _, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    (tmp_path / "out/study.json").write_text("{", encoding="utf-8")
+    with pytest.raises(ValidationError, match=r"study\.json: cannot be read: .* --fresh starts anew"):
+        swept(study, tmp_path / "out")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--scheduler", "slurm"], "--scheduler slurm; allowed: processes, threads, or an address"),
+        (["--workers", "0"], "0; allowed: 1, 2, …"),
+    ],
+)
+def test_wrong_options_are_refused(tmp_path, capsys, arguments, message):
+    path = study_file(tmp_path)
+    try:
+        status = main([str(path), *arguments])
+    except SystemExit as stop:
+        status = stop.code
+    assert status == 2
+    assert message in capsys.readouterr().err
+
+
+def test_missing_libraries_are_named(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("validation.sweep.__main__.find_spec", lambda name: None)
+    assert main([str(study_file(tmp_path))]) == 2
+    assert "sweeps need distributed, locket, pyarrow, SALib; install them" in capsys.readouterr().err
+
+
+def test_large_sweeps_have_larger_parts(whole):
+    study, _, _ = whole
+    assert run.chunk_size(study, 10**6) == 2
+    (free,) = [study.__class__(**(vars(study) | {"chunk": None}))]
+    assert [run.chunk_size(free, total) for total in (1, 1000, 10_000, 10**6)] == [8, 8, 20, 64]
+
+
+def test_the_case_file_is_not_needed_any_more_than_its_numbers(tmp_path):
+    """Another title of the case, or its own bands' reasons, leave the numbers as they are."""
+    study = small_study(tmp_path, parameters=ONE)
+    expected = swept(study, tmp_path / "out")
+    case = small_case("local")
+    case["title"] = "Another title"
+    again = small_study(tmp_path, parameters=ONE, case=case)
+    assert_frame_equal(swept(again, tmp_path / "out"), expected)
+    assert load_case_file(tmp_path / "small.yaml").title == "Another title"
