@@ -8,7 +8,6 @@ varies along a ray: it is given the shape of v_x, 1 − y^γ. Then mass alone gi
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.profiles import shape
 from solver.section_wall import SectionWall
 
 Floats = NDArray[np.float64]
@@ -88,12 +87,13 @@ def radial_velocity(
     flow = velocity * radius**2
     flow_along = np.gradient(flow, dx, axis=-2)[..., None]
     taper = np.gradient(radius, dx, axis=-2)[..., None] / size
-    inside = (gamma + 2) / gamma * (0.5 * y - y ** (gamma + 1) / (gamma + 2))  # ∫₀^y s y dy / y
-    across = flow_along * inside - flow[..., None] * shape(y, gamma) * y * taper
+    power = y**gamma
+    inside = (0.5 + 1 / gamma - power / gamma) * y  # ∫₀^y s y dy / y, s = (1 + 2/γ)(1 − y^γ)
+    across = flow_along * inside - flow[..., None] * (1 + 2 / gamma) * (1 - power) * y * taper
     if flux is not None:
-        around = (gamma + 1) / gamma * (1 - y**gamma / (gamma + 1))
+        around = (gamma + 1) / gamma * (1 - power / (gamma + 1))
         slant = _around(radius, dphi)[..., None] / size
-        form = (gamma + 1) / gamma * (1 - y**gamma)
+        form = (gamma + 1) / gamma * (1 - power)
         across = across + 0.5 * (_around(flux, dphi)[..., None] * around - flux[..., None] * form * slant)
     return np.asarray(-across / size)
 

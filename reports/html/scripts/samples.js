@@ -14,6 +14,7 @@ function samples(host) {
     const all = page.sample.map((_, k) => k).filter((k) => page.variant[k] === variant.value && up.values[k] !== null);
     const within = all.filter((k) => limit === null || Math.abs(up.values[k]) <= limit);
     const beyond = all.filter((k) => limit !== null && Math.abs(up.values[k]) > limit);
+    const limits = limit === null ? [] : all.some((k) => up.values[k] < 0) ? [-limit, limit] : [limit];
     const points = (which, name, marker) => ({
       x: which.map((k) => across.values[k]), y: which.map((k) => up.values[k]), text: which.map(told), name, mode: "markers", marker,
       hovertemplate: `%{y:.4~g}${unitOf(up) ? ` ${unitOf(up)}` : ""}<br>%{text}<extra></extra>`,
@@ -25,10 +26,10 @@ function samples(host) {
       hovermode: "closest", showlegend: true, legend: { orientation: "h", x: 0, y: 1.14 },
       xaxis: axisOf(named(across.label, unitOf(across) || "–"), { type: across.logarithmic ? "log" : "linear", automargin: true }),
       yaxis: axisOf(isNarrow(place) ? unitOf(up) || "–" : named(up.label, unitOf(up) || "–"), { automargin: true, zeroline: false }),
-      shapes: limit === null ? [] : [{ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit, y1: limit,
-        line: { color: css("--ink"), width: 1.5, dash: "dash" } }],
+      shapes: limits.map((y) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: y, y1: y,
+        line: { color: css("--ink"), width: 1.5, dash: "dash" } })),
     }));
-    const told_limit = limit === null ? "no band judges it" : `${within.length} of ${all.length} within ${withUnit(number(limit), unitOf(up))}`;
-    words.textContent = `${up.label}, variant ${page.variants[variant.value]}: ${told_limit}.`;
+    const judged = limit === null ? "no band judges it" : `${within.length} of ${all.length} within ${withUnit(number(limit), unitOf(up))}`;
+    words.textContent = `${up.label}, variant ${page.variants[variant.value]}: ${judged}.`;
   });
 }
