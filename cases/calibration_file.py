@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import ValidationInfo, field_validator
 
-from cases.case_file import CaseFile, check_section, load_case_file, part_of
+from cases.case_file import CaseFile, check_section, load_case_file, part_of, unknown_keys
 from cases.errors import CaseFileError, Problem, QuantityError, RefusedValueError
 from cases.fields import FIELDS
 from cases.numeric_keys import NumericKey, numeric_keys
@@ -17,7 +17,7 @@ from cases.template import Template, load_template
 from cases.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity
 from cases.values import Context, ExistingFile, Name, ValueKind, Words, distinct, one_of, refused
 from cases.wording import choices, not_one_of, shown, unknown_key
-from cases.yaml_nodes import Node, parse_yaml, read_text
+from cases.yaml_nodes import Node, Scalar, parse_yaml, read_text
 
 FILE_KEYS = ("name", "title", "case", "variant", "parameters", "targets", "reference")
 NOT_OF_AN_ARTERY = "solver"  # whose numbers say how well it is computed
@@ -191,11 +191,7 @@ def load_calibration(path: Path) -> Calibration:
     """
     text = read_text(path)
     root = parse_yaml(text, path)
-    problems = [
-        Problem(node.line, node.key, unknown_key(key, FILE_KEYS))
-        for key, node in root.section.items()
-        if key not in FILE_KEYS
-    ]
+    problems = unknown_keys(root, FILE_KEYS)
     context = Context(path.resolve().parent, ())
     stated = part_of(root, tuple(key for key in FILE_KEYS if key != "parameters"))
     heading = check_section(_Heading, stated, context, problems)
@@ -328,16 +324,8 @@ def _number(key: NumericKey, node: Node, name: str, problems: list[Problem]) -> 
         return None
 
 
-def stated_number(key: NumericKey, value: float) -> str | float:
-    """Write a number in SI units as a case file states it: all digits, with its unit."""
-    if key.kind.unit == "1":
-        return value
-    unit = DIMENSION_OF_UNIT[key.kind.unit]
-    return f"{value!r} {'rad' if unit.name == 'angle' else unit.common_units[0]}"
-
-
 def changed_values(
     keys: Iterable[NumericKey], values: Iterable[float]
-) -> dict[tuple[str | int, ...], str | float]:
+) -> dict[tuple[str | int, ...], Scalar]:
     """Return what a case file would state under each key, by its path."""
-    return {key.path: stated_number(key, float(value)) for key, value in zip(keys, values, strict=True)}
+    return {key.path: key.stated(value) for key, value in zip(keys, values, strict=True)}

@@ -1,6 +1,7 @@
 """Loading a case file: YAML → base and variants → checked cases in SI units."""
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -79,7 +80,7 @@ def load_case_file(path: str | Path) -> CaseFile:
     path = Path(path)
     text = read_text(path)
     root = parse_yaml(text, path)
-    problems = _unknown_keys(root)
+    problems = unknown_keys(root, FILE_KEYS)
     heading = check_section(_Heading, part_of(root, ("name", "title")), None, problems)
     overrides = overrides_of(root, problems)
     cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides)), problems)
@@ -155,11 +156,12 @@ def check_section(schema: type[S], node: Node, context: Context | None, problems
         return None
 
 
-def _unknown_keys(root: Node) -> list[Problem]:
+def unknown_keys(root: Node, known: Collection[str]) -> list[Problem]:
+    """Return a problem for each key of a file that it does not have."""
     return [
-        Problem(node.line, node.key, unknown_key(key, FILE_KEYS))
+        Problem(node.line, node.key, unknown_key(key, known))
         for key, node in root.section.items()
-        if key not in FILE_KEYS
+        if key not in known
     ]
 
 

@@ -8,8 +8,9 @@ from pydantic.fields import FieldInfo
 
 from cases.schema import Case
 from cases.section import Section, bare, is_section
+from cases.units import DIMENSION_OF_UNIT
 from cases.values import ValueKind
-from cases.yaml_nodes import join
+from cases.yaml_nodes import Scalar, join
 
 # sections that say how an artery is run; the others say what it is compared with
 SECTIONS = ("geometry", "blood", "wall", "calcification", "inlet", "outlet", "solver")
@@ -38,6 +39,15 @@ class NumericKey:
     kind: ValueKind
     whole: bool
     value: float | None
+
+    def stated(self, value: float) -> Scalar:
+        """Write a number in SI units as a case file states it: all digits, with its unit."""
+        if self.whole:
+            return int(value)
+        if self.kind.unit == "1":
+            return float(value)
+        unit = DIMENSION_OF_UNIT[self.kind.unit]
+        return f"{float(value)!r} {'rad' if unit.name == 'angle' else unit.common_units[0]}"
 
 
 def numeric_keys(case: Case) -> dict[str, NumericKey]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from ruamel.yaml import YAML
 
-from cases.calibration_file import Calibration, stated_number
+from cases.calibration_file import Calibration
 from cases.case_file import load_case_file
 from cases.errors import CaseError
 from cases.numeric_keys import numeric_keys
@@ -37,7 +37,7 @@ def snippet(calibration: Calibration, values: Floats) -> str:
             if isinstance(below, int) and key not in section:
                 section[key] = calibration.template.root.find(path[:depth]).plain()
             section = _below(section, key)
-        section[path[-1]] = stated_number(parameter.key, float(value))
+        section[path[-1]] = parameter.key.stated(float(value))
     fitted = f"fitted with variant {calibration.variant} of {calibration.file.path.name}"
     return f"# {calibration.title}: {fitted}\n{_dumped(root)}"
 
@@ -60,7 +60,7 @@ def calibrated_text(calibration: Calibration, values: Floats) -> str:
         section: Any = places[0] if places else content if own is None else own
         for key in path[:-1]:
             section = _below(section, key)
-        section[path[-1]] = stated_number(parameter.key, float(value))
+        section[path[-1]] = parameter.key.stated(float(value))
     return _dumped(content)
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from cases.calibration_file import changed_values, load_calibration, stated_number
+from cases.calibration_file import changed_values, load_calibration
 from cases.case_file import load_case_file
 from cases.errors import CaseFileError
 from cases.numeric_keys import numeric_keys
@@ -170,4 +170,4 @@ def test_every_number_of_a_case_is_stated_as_it_is_read(write):
 
 def test_numbers_keep_all_their_digits(write):
     key = load_calibration(write()).parameters[1].key
-    assert stated_number(key, 0.1 + 0.2) == "0.30000000000000004 Pa"
+    assert key.stated(0.1 + 0.2) == "0.30000000000000004 Pa"

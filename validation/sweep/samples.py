@@ -108,13 +108,6 @@ def _stated(case: Case, keys: Sequence[NumericKey], values: Sequence[float]) -> 
     """Return values as the case file would state them, by the keys that lead there."""
     pairs = list(zip(keys, values, strict=True))
     spans = {key.path: value for key, value in pairs if key.path[-1] in (CENTRE, EXTENT)}
-    return {key.path: _text(key, value) for key, value in pairs if key.path not in spans} | ends_of(
+    return {key.path: key.stated(value) for key, value in pairs if key.path not in spans} | ends_of(
         case, spans
     )
-
-
-def _text(key: NumericKey, value: float) -> Scalar:
-    """Return a value with all its digits, as `key.kind` reads it."""
-    if key.whole:
-        return int(value)
-    return value if key.kind.unit == "1" else f"{value!r} {key.kind.unit}"

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from cases.case_file import check_section, load_case_file, part_of
+from cases.case_file import check_section, load_case_file, part_of, unknown_keys
 from cases.errors import CaseFileError, Problem
 from cases.numeric_keys import NumericKey, numeric_keys
 from cases.schema import Case
@@ -24,7 +24,7 @@ from cases.values import (
     refused,
     whole_number,
 )
-from cases.wording import but_allowed, choices, nearest, not_one_of, shown, unknown_key
+from cases.wording import but_allowed, choices, nearest, not_one_of, shown
 from cases.yaml_nodes import Node, parse_yaml, read_text
 from validation.sweep.design import Design, misfit
 from validation.sweep.judging import Against, unfit_for_judging
@@ -126,11 +126,7 @@ def load_study(path: Path) -> Study:
     """
     text = read_text(path)
     root = parse_yaml(text, path)
-    problems = [
-        Problem(node.line, node.key, unknown_key(key, STUDY_KEYS))
-        for key, node in root.section.items()
-        if key not in STUDY_KEYS
-    ]
+    problems = unknown_keys(root, STUDY_KEYS)
     kept = part_of(root, tuple(_Stated.model_fields))
     stated = check_section(_Stated, _spelt_out(kept), Context(path.resolve().parent, ()), problems)
     if stated is None:
