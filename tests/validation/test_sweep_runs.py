@@ -11,6 +11,8 @@ from small_case import small_case, written
 from small_sweep import GRID, records, small_study, study_file, swept
 
 from cases.case_file import load_case_file
+from reports.errors import ReportError
+from reports.sweep.load import load_sweep
 from solver.case_run import run_case
 from validation import compare
 from validation.errors import ValidationError
@@ -140,6 +142,30 @@ def test_a_damaged_part_is_computed_again(whole, tmp_path):
     shutil.copytree(folder, tmp_path / "out")
     part = tmp_path / "out/samples/part-000001.parquet"
     part.write_bytes(part.read_bytes()[:-20])
+    assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
+
+
+def one_bit_changed(content):
+    """The bytes of a part with one bit of a stored modulus (1e7 Pa) changed, its metadata intact."""
+    at = content.index(np.array([1e7]).tobytes())
+    return content[:at] + bytes([content[at] ^ 1]) + content[at + 1 :]
+
+
+def test_a_part_with_a_changed_number_is_computed_again(whole, tmp_path):
+    study, expected, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    part = tmp_path / "out/samples/part-000002.parquet"
+    part.write_bytes(one_bit_changed(part.read_bytes()))
+    with pytest.raises(ReportError, match=r"part-000002\.parquet: cannot be read as Parquet"):
+        load_sweep(tmp_path / "out")
+    assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
+
+
+def test_a_part_without_some_columns_is_computed_again(whole, tmp_path):
+    study, expected, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    part = tmp_path / "out/samples/part-000001.parquet"
+    pd.read_parquet(part)[["sample", "status"]].to_parquet(part)
     assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
 
 
