@@ -1,5 +1,6 @@
 """Sweeps: their numbers are those of ordinary runs, and of a comparison; an interrupted one ends the same."""
 
+import errno
 import json
 import shutil
 
@@ -209,6 +210,28 @@ def test_a_folder_of_other_things_and_one_in_use_are_refused(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(ValidationError, match="file: cannot be written"):
         swept(study, tmp_path / "file")
+
+
+@pytest.mark.parametrize(
+    ("writer", "name"),
+    [
+        ("validation.sweep.account.write_text", "study.yaml"),
+        ("validation.sweep.account.write_json", "study.json"),
+        ("validation.sweep.folder.pq.write_table", "samples/part-000002.parquet"),
+        ("reports.sweep.write_sweep_page", "index.html"),
+    ],
+)
+def test_a_full_disk_is_one_message(whole, tmp_path, capsys, monkeypatch, writer, name):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    shutil.copytree(whole[2], tmp_path / "out")
+    (tmp_path / "out/samples/part-000002.parquet").unlink()
+    monkeypatch.setattr(writer, full)
+    command = [str(study_file(tmp_path)), "--scheduler", "threads", "--workers", "1"]
+    assert main([*command, "--output", str(tmp_path / "out")]) == 2
+    said = f"{tmp_path / 'out' / name}: cannot be written: No space left on device\n"
+    assert capsys.readouterr().err == said
 
 
 def test_an_account_that_is_damaged_is_refused(whole, tmp_path):

@@ -108,6 +108,21 @@ def cleared(folder: Path) -> None:
         path.unlink(missing_ok=True)
 
 
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Say of what cannot be written which file it is.
+
+    Raises
+    ------
+    ValidationError
+        In place of an OSError.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
 def part_path(folder: Path, number: int) -> Path:
     """Return where the samples of one chunk lie."""
     return folder / SAMPLES / f"part-{number:06d}.parquet"
@@ -118,16 +133,17 @@ def write_part(path: Path, records: Sequence[Record], schema: pa.Schema) -> Coun
 
     Raises
     ------
-    OSError
+    ValidationError
         If it cannot be written.
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        table = pa.Table.from_pylist(list(records), schema)
-        pq.write_table(table, partial, write_page_checksum=True)
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
+    table = pa.Table.from_pylist(list(records), schema)
+    with writing(path):
+        try:
+            pq.write_table(table, partial, write_page_checksum=True)
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)
     return Counts(len(records), sum(record["status"] == FAILED for record in records))
 
 
@@ -144,7 +160,8 @@ def parts_present(folder: Path, chunks: Sequence[range], schema: pa.Schema) -> d
         The columns of a part.
     """
     place = folder / SAMPLES
-    place.mkdir(exist_ok=True)
+    with writing(place):
+        place.mkdir(exist_ok=True)
     for path in place.glob(".*.part"):
         path.unlink(missing_ok=True)
     found = {}

@@ -135,14 +135,10 @@ class _Keeper:
         ValidationError
             If it cannot be written.
         """
-        path = part_path(self.folder, number)
-        try:
-            self.counts += write_part(path, records, self.schema)
-            if time.monotonic() - self.written > ACCOUNT_EVERY:
-                write_account(self.folder, self.account, "running", self.counts)
-                self.written = time.monotonic()
-        except OSError as error:
-            raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
+        self.counts += write_part(part_path(self.folder, number), records, self.schema)
+        if time.monotonic() - self.written > ACCOUNT_EVERY:
+            write_account(self.folder, self.account, "running", self.counts)
+            self.written = time.monotonic()
 
 
 def _run_missing(
