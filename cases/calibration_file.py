@@ -11,6 +11,7 @@ from cases.case_file import CaseFile, check_section, load_case_file, part_of, un
 from cases.errors import CaseFileError, Problem, QuantityError, RefusedValueError
 from cases.fields import FIELDS
 from cases.numeric_keys import NumericKey, numeric_keys
+from cases.ranges import SIZES, Range
 from cases.schema import Case
 from cases.section import Section
 from cases.template import Template, load_template
@@ -21,6 +22,9 @@ from cases.yaml_nodes import Node, Scalar, parse_yaml, read_text
 
 FILE_KEYS = ("name", "title", "case", "variant", "parameters", "targets", "reference")
 NOT_OF_AN_ARTERY = "solver"  # whose numbers say how well it is computed
+
+VALUES = {"pressure": Range("pressure", "1 Pa", "1e9 Pa"), "length": SIZES}  # of targets
+LEAST_SHARE, LARGEST_SHARE = 1e-6, 10.0  # of a target's value that its uncertainty may be
 
 CycleQuantity = Literal[
     "systolic_pressure", "diastolic_pressure", "pulse_pressure", "largest_radius", "least_radius"
@@ -80,13 +84,16 @@ class Target(Section):
         if quantity is None or stated is None:
             return None  # the target is refused for its quantity already
         dimension = DIMENSION_OF_UNIT[FIELDS[quantity].unit]
-        allowed = f"a positive {dimension.name} in units such as {choices(dimension.common_units)}"
+        within, value = VALUES[dimension.name], info.data.get("value")
+        allowed = f"{within}, in units such as {choices(dimension.common_units)}"
         try:
             found = parse_quantity(stated, dimension)
         except QuantityError as error:
             raise refused(stated, allowed, str(error)) from error
-        if found <= 0:
+        if info.field_name == "value" and found not in within:
             raise refused(stated, allowed)
+        if info.field_name == "uncertainty" and value and not LEAST_SHARE <= found / value <= LARGEST_SHARE:
+            raise refused(stated, f"from {LEAST_SHARE:g} to {LARGEST_SHARE:g} times the value")
         return found
 
 

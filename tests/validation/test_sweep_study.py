@@ -111,6 +111,10 @@ RANGE = {"start": "1 MPa", "stop": "2 MPa", "count": 2}
             "distribution: a section; allowed: uniform, loguniform",
         ),
         (
+            {"parameters": {"calcification.phi.extent": ["360 deg"]}},
+            "360 deg; allowed: an angle from 0.001 deg to 359.999 deg",
+        ),
+        (
             {"parameters": {"blood.viscosty": ["1 Pa s"]}},
             "no number of the case; did you mean blood.viscosity?",
         ),

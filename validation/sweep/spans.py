@@ -6,19 +6,20 @@ from types import MappingProxyType
 
 from cases.calcification import Part, SeveralCalcifications
 from cases.numeric_keys import NumericKey
-from cases.ranges import ANGLES, POSITIONS, SIZES
+from cases.ranges import ANGLES, POSITIONS, SIZES, Range
 from cases.schema import Case
 from cases.values import ValueKind, quantity
 from cases.yaml_nodes import join
 
 FULL_TURN = 2.0 * math.pi
 CENTRE, EXTENT = "centre", "extent"
+EXTENTS = Range("angle", "0.001 deg", "359.999 deg")  # a patch has two ends; all around is a ring
 KINDS: Mapping[tuple[str, str], ValueKind] = MappingProxyType(
     {
         ("x", CENTRE): quantity(POSITIONS, "7.5 mm"),
         ("x", EXTENT): quantity(SIZES, "5 mm"),
         ("phi", CENTRE): quantity(ANGLES, "180 deg"),
-        ("phi", EXTENT): quantity(ANGLES, "90 deg"),
+        ("phi", EXTENT): quantity(EXTENTS, "90 deg"),
     }
 )
 Keys = tuple[str | int, ...]
