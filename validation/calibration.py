@@ -20,7 +20,7 @@ from validation.errors import ValidationError
 DIFFERENCE = 1e-3  # of a parameter's range: half the interval of the central differences
 MOST_EVALUATIONS = 60
 TOLERANCE = 1e-8
-AT_LIMIT = 1e-5  # share of its range within which a parameter lies on its limit
+AT_LIMIT = 1e-5  # share of its range, and of its value, within which a parameter lies on its limit
 REACHED = 1e-3  # of a target's value: farther off, it is not attained
 DETERMINED = 1e-4  # of the largest singular value: a direction below it is not seen by the targets
 
@@ -65,7 +65,7 @@ class _Runs:
         self.low = np.array([parameter.low for parameter in calibration.parameters])
         self.width = np.array([parameter.high for parameter in calibration.parameters]) - self.low
         self.known: dict[bytes, Floats] = {}
-        self.last_error: CaseError | SolverError | None = None
+        self.errors: dict[bytes, CaseError | SolverError] = {}
 
     def values(self, point: Floats) -> Floats:
         return np.asarray(self.low + point * self.width)
@@ -75,7 +75,7 @@ class _Runs:
         try:
             return case_with(self.calibration.template, changed_values(keys, self.values(point)))
         except CaseError as error:
-            self.last_error = error
+            self.errors[point.tobytes()] = error
             return None
 
     def attained(self, points: Sequence[Floats]) -> list[Floats]:
@@ -88,9 +88,14 @@ class _Runs:
         for name, outcome in zip(able, outcomes, strict=True):
             if outcome.kept is not None:
                 self.known[name] = outcome.kept
-            self.last_error = outcome.error or self.last_error
+            elif outcome.error is not None:
+                self.errors[name] = outcome.error
         self.watched(len(self.known))
         return [self.known[point.tobytes()] for point in points]
+
+    def error(self, point: Floats) -> CaseError | SolverError | None:
+        """Return why a run failed."""
+        return self.errors.get(point.tobytes())
 
     def residuals(self, point: Floats) -> Floats:
         (attained,) = self.attained([point])
@@ -114,7 +119,11 @@ class _Runs:
             columns.append((high - low) / self.wanted.scales / (end - begin) if end > begin else at * np.nan)
         jacobian = np.stack(columns, axis=1)
         if not np.all(np.isfinite(jacobian)):
-            raise ValidationError(f"{self.calibration.path}: at {self._where(point)}: {self.last_error}")
+            tried = (point, *below, *above)
+            failing = next((each for each in tried if self.error(each) is not None), point)
+            raise ValidationError(
+                f"{self.calibration.path}: at {self._where(failing)}: {self.error(failing)}"
+            )
         return jacobian
 
     def _where(self, point: Floats) -> str:
@@ -149,7 +158,10 @@ def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], Non
     start = np.array([parameter.start for parameter in calibration.parameters])
     begin = (start - runs.low) / runs.width
     if not np.all(np.isfinite(runs.residuals(begin))):
-        raise ValidationError(f"{calibration.path}: the run from which the search begins: {runs.last_error}")
+        reason = runs.error(begin)
+        raise ValidationError(
+            f"{calibration.path}: the run from which the search begins: {runs.error(begin)}"
+        )
     _require_determined(calibration, runs.jacobian(np.clip(begin, AT_LIMIT, 1 - AT_LIMIT)))
     found = least_squares(  # runs that fail count as steps too long
         runs.residuals,
@@ -204,8 +216,9 @@ def _require_determined(calibration: Calibration, jacobian: Floats) -> tuple[Flo
 
 def _require_inside(calibration: Calibration, wanted: Observed, point: Floats, attained: Floats) -> None:
     for parameter, share in zip(calibration.parameters, point, strict=True):
-        if not AT_LIMIT < share < 1 - AT_LIMIT:
-            end = "low" if share < 0.5 else "high"
+        end = "low" if share < 0.5 else "high"
+        limit, value = _limit(parameter, end), parameter.low + share * (parameter.high - parameter.low)
+        if abs(value - limit) <= AT_LIMIT * min(abs(value) or np.inf, parameter.high - parameter.low):
             raise ValidationError(
                 f"{calibration.path}: parameters.{parameter.key.name}: ends on its limit {end} "
                 f"({_limit(parameter, end):g}); {misses(wanted, attained)}"

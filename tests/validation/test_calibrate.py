@@ -315,3 +315,17 @@ def test_a_case_that_a_calibration_wrote_may_be_replaced(calibration_of, tmp_pat
         calibrate.check_case(target, calibration)
         calibrate.write_case(target, calibration, np.array([1e9, offset]))
     assert numeric_keys(load_case_file(target).variants["none"])["outlet.offset"].value == 9500.0
+
+
+def test_a_limit_far_below_a_value_is_not_where_it_ends(calibration_of):
+    bounds = {"wall.youngs_modulus": {"low": "1 Pa", "high": "1e13 Pa"}}
+    _, found = fitted(calibration_of(bounds, [RADIUS | {"value": "2.8 mm"}]))
+    np.testing.assert_allclose(found.attained, 2.8e-3, rtol=1e-6)
+
+
+def test_the_point_that_fails_is_named(calibration_of):
+    """A thousandth of this range beside the radius is four times the radius."""
+    bounds = {"geometry.radius": {"low": "1 um", "high": "10 m"}}
+    with pytest.raises(ValidationError) as caught:
+        fitted(calibration_of(bounds, [RADIUS]))
+    assert "at geometry.radius 0.0025" not in str(caught.value)
