@@ -1,13 +1,36 @@
-"""References that are yet to be computed: which commands make them."""
+"""References that a case does not state, or that are yet to be computed: what to do about them."""
 
 import shlex
 from collections.abc import Mapping
 from pathlib import Path
 
-from cases.case_file import CaseFile
+from cases.case_file import ONLY_VARIANT, CaseFile
 from cases.schema import FebioReference
 from validation.errors import ValidationError
 from validation.provenance import shown_path
+
+
+def check_stated(file: CaseFile) -> None:
+    """Check that every variant states what it is compared with.
+
+    Raises
+    ------
+    ValidationError
+        If one does not; the message says which keys it could state, and how the 2D model runs without.
+    """
+    missing = [name for name, case in file.variants.items() if case.reference is None]
+    if missing:
+        raise ValidationError(_without_reference(file, missing))
+
+
+def _without_reference(file: CaseFile, missing: list[str]) -> str:
+    whose = f" of variant {', '.join(map(repr, missing))}" if missing != [ONLY_VARIANT] else ""
+    alone = ["python", "-m", "solver", str(file.path), "--variant", missing[0], "--output", "run.nc"]
+    return (
+        f"{file.path}: reference{whose}: missing, there is nothing to compare with; allowed: kind febio "
+        "(plot_file, and generate where the 3D run is yet to be made) or kind tables (docs/case_file.md); "
+        f"the 2D model alone: {shlex.join(alone)}"
+    )
 
 
 def check_computed(file: CaseFile) -> None:
