@@ -109,7 +109,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
     """
     check_stated(file)
     check_variants(file.variants)
-    check_computed(file)
+    check_computed(file.path, file.variants)
     with watching(cache) as watch, result_directory(target) as directory:
         rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from cases.case_file import ONLY_VARIANT, CaseFile
-from cases.schema import FebioReference
+from cases.schema import Case, FebioReference
 from validation.errors import ValidationError
 from validation.provenance import shown_path
 
@@ -33,8 +33,15 @@ def _without_reference(file: CaseFile, missing: list[str]) -> str:
     )
 
 
-def check_computed(file: CaseFile) -> None:
+def check_computed(path: Path, cases: Mapping[str, Case]) -> None:
     """Check that the files of every reference exist, before anything is computed.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        The case file.
+    cases : mapping of str to Case
+        Those of its variants that are run.
 
     Raises
     ------
@@ -42,17 +49,15 @@ def check_computed(file: CaseFile) -> None:
         If files of a reference with ``generate`` are missing; the message says which commands make them.
     """
     stated = {
-        name: case.reference
-        for name, case in file.variants.items()
-        if isinstance(case.reference, FebioReference)
+        name: case.reference for name, case in cases.items() if isinstance(case.reference, FebioReference)
     }
     missing = {name: reference for name, reference in stated.items() if not reference.plot_file.is_file()}
     if missing:
-        raise ValidationError(_instructions(file.path, missing))
+        raise ValidationError(_instructions(path, missing))
     for name, reference in stated.items():
-        for path in reference.files:
-            if not path.is_file():
-                raise ValidationError(f"variant {name!r}: {shown_path(path)}: no such file (reference)")
+        for needed in reference.files:
+            if not needed.is_file():
+                raise ValidationError(f"variant {name!r}: {shown_path(needed)}: no such file (reference)")
 
 
 def _instructions(case: Path, missing: Mapping[str, FebioReference]) -> str:
