@@ -73,6 +73,12 @@ def test_outputs_are_those_of_the_ordinary_run(whole):
     assert row["systolic_pressure_inlet"] == pytest.approx(pressure[:, 0].max(), rel=1e-9)
     assert row["diastolic_pressure_outlet"] == pytest.approx(pressure[:, -1].min(), rel=1e-9)
     assert row["mean_pressure_inlet"] == pytest.approx(np.trapezoid(pressure[:, 0], dx=0.01), rel=1e-9)
+    ends = last.isel(time=[0, -1])
+    drifts = [
+        float(np.abs(v[1] - v[0]).max() / np.abs(v[0]).max())
+        for v in (ends["pressure"], ends["section_flow_rate"])
+    ]
+    assert row["cycle_change"] == pytest.approx(max(drifts), rel=1e-6)
     flow = last["section_flow_rate"].to_numpy()[:, 6]
     assert row["flow_amplitude"] == pytest.approx(np.ptp(flow), rel=1e-9)
     section = int(np.argmin(np.abs(last["x"].to_numpy() - 7.5e-3)))
