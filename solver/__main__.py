@@ -16,6 +16,7 @@ from solver.progress import progress_bar
 from solver.run import pieces_folder, run_identity, run_to_file
 
 WRONG_INPUT, INTERRUPTED = 2, 130
+USUAL = "what is usual: docs/methods.md, Diagnostics; solver.limits in the case stops a run beyond a limit"
 
 
 def _arguments() -> argparse.Namespace:
@@ -78,6 +79,7 @@ def main() -> int:
     change = done["cycle_change"]
     told = "not evaluated: no state was saved at its start" if change is None else f"{change:.3g} (relative)"
     print(f"  change over the last cycle {told}")
+    print(f"  {USUAL}")
     return 0
 
 

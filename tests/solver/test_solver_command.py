@@ -60,6 +60,7 @@ def result(run, case_file):
         "  continuity residual",
         "  energy defect not evaluated: states too far apart",
         f"  change over the last cycle {stored_change(output):.3g} (relative)",
+        f"  {command.USUAL}",
     ]
     with xr.open_dataset(output) as dataset:
         yield dataset.load()
