@@ -5,8 +5,6 @@ from reports.load import Comparison
 from reports.numbers import ABSENT, SPACE, rounded, with_unit
 from reports.provenance_file import SimulationCost
 
-_STEP_OF_2D = "reduced model"
-
 
 def cost_table(comparison: Comparison) -> Table | None:
     """Return the cost of each variant in both models; None where no log tells that of 3D."""
@@ -16,8 +14,8 @@ def cost_table(comparison: Comparison) -> Table | None:
         return None
     return Table(
         "cost",
-        "Cost of the simulations: 3D as told by the log, on the machine where it ran; 2D as measured in this "
-        "run, which runs two variants at once and compiles if it is the first. The last column is wall time "
+        "Cost of the simulations: 3D as told by the log, on the machine where it ran; 2D as measured when "
+        "it was computed, without compiling, perhaps beside another variant. The last column is wall time "
         "over wall time, whatever the machines and however many cycles each simulated.",
         (
             Column("variant"),
@@ -36,7 +34,7 @@ def cost_table(comparison: Comparison) -> Table | None:
 
 
 def _cost_row(comparison: Comparison, name: str, cost: SimulationCost) -> tuple[str, ...]:
-    two = comparison.provenance.wall_times_s.get(f"{name}: {_STEP_OF_2D}")
+    two = comparison.provenance.variants[name].rom.simulation_wall_time_s
     row = comparison.metrics.find(name, "time_steps", "cost")
     steps = row.rom if row else None
     ratio = cost.wall_time_s / two if cost.wall_time_s is not None and two else None

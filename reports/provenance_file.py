@@ -48,10 +48,13 @@ class ReducedModelSettings(_Settings):
         Cycles of the inlet that it ran.
     cycle_change : float, optional
         Largest relative change of its pressure and flow rate over its last cycle.
+    simulation_wall_time_s : float, optional
+        Wall time of its run when it was computed, without compiling, s.
     """
 
     cycles: int | None = None
     cycle_change: Annotated[float, Field(ge=0)] | None = None
+    simulation_wall_time_s: Annotated[float, Field(ge=0)] | None = None
 
 
 Count = Annotated[int, Field(ge=0)]

@@ -33,12 +33,12 @@ RECORD = {
 def comparison(tmp_path):
     """Write a comparison whose first variant has facts of its 3D run."""
 
-    def loaded(wall_times=None, **facts):
+    def loaded(seconds=None, **facts):
         write(tmp_path, Setup())
         path = tmp_path / "provenance.json"
         content = json.loads(path.read_text(encoding="utf-8"))
         content["variants"]["none"]["reference"] |= facts
-        content["wall_times_s"] = wall_times or {}
+        content["variants"]["none"]["rom"]["simulation_wall_time_s"] = seconds
         path.write_text(json.dumps(content), encoding="utf-8")
         return load(tmp_path)
 
@@ -51,7 +51,7 @@ def test_without_log_and_records_there_is_nothing_to_tell(comparison):
 
 
 def test_the_cost_of_both_models(comparison):
-    table = cost.cost_table(comparison({"none: reduced model": 0.5}, cost=COST))
+    table = cost.cost_table(comparison(0.5, cost=COST))
     assert [tuple(text.replace("\u00a0", " ") for text in row) for row in table.rows] == [
         (
             "none", "15.8 min", "1.794 s", "450 (2 retried)", "2211", "37572", "normally (FEBio 4.11.0)",
