@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from cases.schema import Case, MembraneWall
 from solver.case_run import run_case
 from solver.cross_flow import azimuthal_velocity, radial_velocity
+from solver.periodicity import cycle_change
 from solver.profiles import axis_ratio, shape
 from solver.walls_of_case import has_section_pressure
 from validation.alignment import Alignment
@@ -74,8 +75,6 @@ def run_reduced_model(
     SolverError
         As the solver raises it.
     """
-    period, cycles = case.inlet.period, case.solver.cycles
-    begin, end = (cycles - 1) * period, cycles * period
     dataset, seconds = _timed_run(case, run_times(case, alignment.rom_times), progress)
     took = {"simulation_wall_time_s": round(seconds, 3)}
     kept = dataset.sel(time=alignment.rom_times)
@@ -87,8 +86,7 @@ def run_reduced_model(
     values |= _across(values, kept.get("azimuthal_flux"), rays)
     values["section_pressure_range"] = np.ptp(values["pressure"], axis=-1)
     values["axis_velocity_spread"] = np.ptp(axis, axis=-1) / np.abs(axis).mean(axis=-1)
-    first, last = dataset.sel(time=begin), dataset.sel(time=end)
-    change = max(_relative_change(first[name], last[name]) for name in ("pressure", "section_flow_rate"))
+    change = change_of(case, dataset)
     return ReducedModelRun(
         fields=as_dataset(values, rays, alignment.cycle_times),
         stiffness=dataset["wall_stiffness"],
@@ -125,8 +123,12 @@ def _across(values: dict[str, Floats], flux: xr.DataArray | None, rays: Rays) ->
     }
 
 
-def _relative_change(first: xr.DataArray, last: xr.DataArray) -> float:
-    return float(np.max(np.abs(last - first)) / np.max(np.abs(first)))
+def change_of(case: Case, dataset: xr.Dataset) -> float:
+    """Return the change over the last cycle of a run through :func:`run_times`, which have both its ends."""
+    change = cycle_change(case, dataset)
+    if change is None:
+        raise ValueError("a run without the ends of its last cycle")
+    return change
 
 
 def _locality(dataset: xr.Dataset) -> dict[str, float]:
