@@ -102,7 +102,12 @@ def section(comparison: Comparison) -> Section:
     blocks += [table for table in (records_table(comparison), cost_table(comparison)) if table]
     if p.wall_times_s:
         blocks.append(
-            _pairs("wall-times", "Wall-clock times of this run.", ("step", "seconds"), p.wall_times_s)
+            _pairs(
+                "wall-times",
+                "Wall-clock times of this run; what comes from the cache takes as long as reading it.",
+                ("step", "seconds"),
+                p.wall_times_s,
+            )
         )
     blocks.append(_inputs(comparison))
     blocks.append(_pairs("versions", "Versions of the libraries.", ("package", "version"), p.versions))
