@@ -15,7 +15,7 @@ def cost_table(comparison: Comparison) -> Table | None:
     return Table(
         "cost",
         "Cost of the simulations: 3D as told by the log, on the machine where it ran; 2D as measured when it "
-        "was computed (the first run on a machine compiles; two variants run at once). The last column is "
+        "was computed, without compiling, perhaps beside another variant. The last column is "
         "wall time per simulated cycle over the same of 2D, whatever the machines.",
         (
             Column("variant"),
@@ -46,7 +46,7 @@ def _cost_row(comparison: Comparison, name: str, cost: SimulationCost) -> tuple[
         str(cost.iterations),
         ABSENT if cost.equations is None else str(cost.equations),
         f"{cost.ended} ({version})",
-        _duration(two.wall_time_s),
+        _duration(two.simulation_wall_time_s),
         ABSENT if two.cycles is None else str(two.cycles),
         ABSENT if two.steps is None else str(two.steps),
         rounded(_per_cycle(comparison.period, cost, two), 2),
@@ -55,9 +55,9 @@ def _cost_row(comparison: Comparison, name: str, cost: SimulationCost) -> tuple[
 
 def _per_cycle(period: float, cost: SimulationCost, two: ReducedModelSettings) -> float | None:
     """Wall time of a cycle in 3D over that in 2D; None where either, or how much it simulated, is unknown."""
-    if not (cost.wall_time_s and cost.simulated_s and two.wall_time_s and two.cycles):
+    if not (cost.wall_time_s and cost.simulated_s and two.simulation_wall_time_s and two.cycles):
         return None
-    return (cost.wall_time_s / (cost.simulated_s / period)) / (two.wall_time_s / two.cycles)
+    return (cost.wall_time_s / (cost.simulated_s / period)) / (two.simulation_wall_time_s / two.cycles)
 
 
 def _duration(seconds: float | None) -> str:

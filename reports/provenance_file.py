@@ -54,18 +54,20 @@ class ReducedModelSettings(_Settings):
         Largest relative change of its pressure and flow rate over its last cycle.
     steps : int, optional
         Time steps of all cycles.
-    wall_time_s : float, optional
-        What it took when it was computed, now or in an earlier run.
+    simulation_wall_time_s : float, optional
+        Wall time of its run when it was computed, without compiling, s.
     """
 
     cycles: Count | None = None
     cycle_change: Amount | None = None
     steps: Count | None = None
-    wall_time_s: Amount | None = None
+    simulation_wall_time_s: Amount | None = None
 
     def facts(self) -> dict[str, JsonValue]:
         """All facts but the cost, which has a table of its own."""
-        return {k: v for k, v in super().facts().items() if k != "wall_time_s"}
+        return {
+            k: v for k, v in super().facts().items() if k not in ("wall_time_s", "simulation_wall_time_s")
+        }
 
 
 class SimulationCost(_Record):

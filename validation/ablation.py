@@ -188,7 +188,12 @@ def _arguments(argv: list[str] | None) -> argparse.Namespace:
         description="Run each model between the thesis's and the coupled one against the same 3D runs.",
     )
     parser.add_argument("case", type=Path, metavar="CASE.yaml", help="case file")
-    parser.add_argument("--output", type=Path, metavar="DIR", help="folder (default: results/NAME)")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="folder (default: results/NAME-ablation); the report of a comparison there gets the table",
+    )
     parser.add_argument(
         "--sectors", type=Path, metavar="CSV", help="the thesis's table 3.8, for local calcifications"
     )
@@ -200,7 +205,7 @@ def main(argv: list[str] | None = None) -> int:
     arguments = _arguments(argv)
     try:
         file = load_case_file(arguments.case)
-        directory = arguments.output or Path("results") / file.name
+        directory = arguments.output or Path("results") / f"{file.name}-ablation"
         with watching() as watch:
             rows = list(ablation_rows(file, arguments.sectors, watch))
         write_rows(directory, rows)

@@ -51,7 +51,7 @@ def test_without_log_and_records_there_is_nothing_to_tell(comparison):
 
 
 def test_the_cost_of_both_models(comparison):
-    read = comparison({"wall_time_s": 0.5}, cost=COST)
+    read = comparison({"simulation_wall_time_s": 0.5}, cost=COST)
     table = cost.cost_table(read)
     per_cycle = (949.057 / (1.794 / read.period)) / (0.5 / 3)
     assert [tuple(text.replace("\u00a0", " ") for text in row) for row in table.rows] == [
@@ -94,7 +94,10 @@ def test_data_records(comparison):
 
 
 def test_the_cost_of_2d_is_told_once(comparison):
-    assert "wall_time_s" not in comparison({"wall_time_s": 0.5}).provenance.variants["none"].rom.facts()
+    assert (
+        "simulation_wall_time_s"
+        not in comparison({"simulation_wall_time_s": 0.5}).provenance.variants["none"].rom.facts()
+    )
 
 
 def test_neither_is_listed_among_the_settings(comparison):
