@@ -131,7 +131,9 @@ def _own_outputs() -> dict[str, tuple[Output, Measure]]:
         (_percent("radius_change_calcified", f"{change}, calcified row"), _calcified_radius_change),
         (
             _like(
-                "flow_amplitude", "largest less least flow rate at mid-length", FIELDS["section_flow_rate"]
+                "flow_amplitude",
+                "amplitude of the flow rate (largest − least) at mid-length",
+                FIELDS["section_flow_rate"],
             ),
             _flow_amplitude,
         ),
