@@ -19,7 +19,7 @@ from solver.errors import SolverError
 from validation.cache import open_cache
 from validation.calibrated_case import check_case, write_case
 from validation.calibration import Fit, fit, misses
-from validation.calibration_output import parameter_records, write_results
+from validation.calibration_output import KEYS, RECORD, check_results, parameter_records, write_results
 from validation.calibration_targets import Observed, observed
 from validation.errors import ValidationError
 from validation.run import watching
@@ -113,6 +113,11 @@ def _arguments(arguments: Sequence[str]) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
+def _refuse_a_result(case: Path, folder: Path) -> None:
+    if case.resolve() in ((folder / name).resolve() for name in (RECORD, KEYS)):
+        raise ValidationError(f"{case}: is a file of the result; choose another --case")
+
+
 def _interrupt(*_: object) -> None:
     """Let a request to terminate clean up as Ctrl-C does."""
     raise KeyboardInterrupt
@@ -128,8 +133,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         calibration = load_calibration(chosen.calibration)
         folder = chosen.output or Path("results") / calibration.name
+        check_results(folder, calibration)
         if chosen.case is not None:
             check_case(chosen.case, calibration)
+            _refuse_a_result(chosen.case, folder)
         wanted, found = calibrated(calibration, chosen.fresh)
         write_results(folder, calibration, wanted, found, command)
         if chosen.case is not None:  # last, so that the numbers are kept whatever has become of its folder
@@ -146,7 +153,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         output.print(target_table(wanted, found))
     for line in remarks(calibration, wanted, found):
         output.print(line, highlight=False)
-    written = f"{folder / 'calibration.json'}, {folder / 'calibration.yaml'}"
+    written = f"{folder / RECORD}, {folder / KEYS}"
     output.print(f"results: {written}" + (f", {chosen.case}" if chosen.case else ""), soft_wrap=True)
     return 0
 

@@ -19,6 +19,7 @@ from cases.numeric_keys import numeric_keys
 from validation.errors import ValidationError
 
 SAME = 1e-12  # relative difference of a value that was written and read
+MARK = "# values fitted by python -m validation.calibrate\n"  # last line of a case that may be replaced
 
 Floats = NDArray[np.float64]
 Keys = tuple[str | int, ...]
@@ -61,7 +62,8 @@ def calibrated_text(calibration: Calibration, values: Floats) -> str:
         for key in path[:-1]:
             section = _below(section, key)
         section[path[-1]] = parameter.key.stated(float(value))
-    return _dumped(content)
+    text = _dumped(content)
+    return text if MARK in text else text + MARK
 
 
 def _holds(tree: Any, path: Keys) -> bool:
@@ -96,13 +98,45 @@ def check_case(path: Path, calibration: Calibration) -> None:
     Raises
     ------
     ValidationError
-        As it does, or if the path is the case file itself.
+        As it does, if the path is a file that the calibration reads, or one that no calibration wrote.
     """
-    if path.exists() and path.samefile(calibration.file.path):
-        raise ValidationError(f"{path}: is the case file itself; choose another --case")
+    _refuse_what_is_there(path, calibration)
     begin = np.array([parameter.start for parameter in calibration.parameters])
     with _staged_case(path, calibration, begin):
         pass
+
+
+def _refuse_what_is_there(path: Path, calibration: Calibration) -> None:
+    try:
+        require_none_read(path, calibration, "--case")
+        written = not path.exists() or MARK in path.read_text(encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
+    if not written:
+        raise ValidationError(
+            f"{path}: is there already, and was not written by a calibration; remove it or choose another "
+            "--case"
+        )
+
+
+def require_none_read(path: Path, calibration: Calibration, option: str) -> None:
+    """Refuse a path to write to that is a file which the calibration reads.
+
+    Raises
+    ------
+    ValidationError
+        If it is one; the message names the option by which another is chosen.
+    OSError
+        If the path cannot be looked at.
+    """
+    read = {
+        "the calibration file itself": [calibration.path],
+        "the case file itself": [calibration.file.path],
+        "a file that the case names": calibration.case.input_files,
+    }
+    for words, files in read.items():
+        if path.exists() and any(file.exists() and path.samefile(file) for file in files):
+            raise ValidationError(f"{path}: is {words}; choose another {option}")
 
 
 def write_case(path: Path, calibration: Calibration, values: Floats) -> None:

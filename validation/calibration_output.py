@@ -5,13 +5,15 @@ from typing import Any
 
 from cases.calibration_file import Calibration
 from cases.fields import FIELDS
-from validation.calibrated_case import snippet
+from validation.calibrated_case import require_none_read, snippet
 from validation.calibration import Fit
 from validation.calibration_targets import Observed
 from validation.errors import ValidationError
 from validation.output import write_json, write_text
 from validation.provenance import provenance
 from validation.statistics import rms
+
+RECORD, KEYS = "calibration.json", "calibration.yaml"
 
 
 def record_of(calibration: Calibration, wanted: Observed, found: Fit, command: list[str]) -> dict[str, Any]:
@@ -68,6 +70,27 @@ def _target_records(wanted: Observed, found: Fit) -> list[dict[str, Any]]:
     ]
 
 
+def check_results(folder: Path, calibration: Calibration) -> None:
+    """Refuse, before anything is computed, a folder in which :func:`write_results` would replace other files.
+
+    Raises
+    ------
+    ValidationError
+        If a result's file is one that the calibration reads, or lies there without the other one.
+    """
+    try:
+        for name in (RECORD, KEYS):
+            require_none_read(folder / name, calibration, "--output")
+        alone = (folder / KEYS).exists() and not (folder / RECORD).exists()
+    except OSError as error:
+        raise ValidationError(f"{folder}: cannot be written: {error.strerror or error}") from error
+    if alone:
+        raise ValidationError(
+            f"{folder / KEYS}: is there already, and is no result of a calibration; remove it or choose "
+            "another --output"
+        )
+
+
 def write_results(
     folder: Path, calibration: Calibration, wanted: Observed, found: Fit, command: list[str]
 ) -> None:
@@ -80,7 +103,7 @@ def write_results(
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        write_json(folder / "calibration.json", record_of(calibration, wanted, found, command))
-        write_text(folder / "calibration.yaml", snippet(calibration, found.values))
+        write_json(folder / RECORD, record_of(calibration, wanted, found, command))
+        write_text(folder / KEYS, snippet(calibration, found.values))
     except OSError as error:
         raise ValidationError(f"{folder}: cannot be written: {error.strerror or error}") from error

@@ -68,13 +68,10 @@ def load_sweep(directory: Path) -> Sweep:
     """
     study = read_study(directory / STUDY)
     path = directory / SAMPLES
-    if not any(path.glob("[!.]*.parquet")):
+    parts = sorted(path.glob("[!.]*.parquet"))
+    if not parts:
         raise ReportError(f"{path}: no sample is recorded yet")
-    try:
-        parts = [pd.read_parquet(part, engine="pyarrow") for part in sorted(path.glob("[!.]*.parquet"))]
-    except _UNREADABLE as error:
-        raise ReportError(f"{path}: cannot be read as Parquet: {str(error).partition(chr(10))[0]}") from error
-    samples = pd.concat(parts, ignore_index=True)
+    samples = pd.concat([_read(part) for part in parts], ignore_index=True)
     _check(path, study, samples)
     text = directory / "study.yaml"
     try:
@@ -82,6 +79,17 @@ def load_sweep(directory: Path) -> Sweep:
     except (OSError, UnicodeDecodeError) as error:
         raise ReportError(f"{text}: cannot be read: {error}") from error
     return Sweep(study, words, samples.sort_values("sample").reset_index(drop=True))
+
+
+def _read(part: Path) -> pd.DataFrame:
+    """Read a part; one whose pages are not as they were written is refused."""
+    try:
+        return pd.read_parquet(part, engine="pyarrow", page_checksum_verification=True)
+    except _UNREADABLE as error:
+        reason = str(error).partition("\n")[0]
+        raise ReportError(
+            f"{part}: cannot be read as Parquet: {reason}; the sweep's own command computes it again"
+        ) from error
 
 
 def _check(path: Path, study: Study, samples: pd.DataFrame) -> None:

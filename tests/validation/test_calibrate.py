@@ -291,3 +291,41 @@ def test_a_file_where_the_folder_should_be(calibration_of, tmp_path, capsys):
     path = calibration_of({"outlet.offset": OUTLET["outlet.offset"]}, PRESSURES[:1])
     assert calibrate.main([str(path), "--output", str(path)]) == 2
     assert "cannot be written" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("option", "place", "said"),
+    [
+        ("--case", "calibration.yaml", "is the calibration file itself; choose another --case"),
+        ("--case", "inlet.csv", "is a file that the case names; choose another --case"),
+        ("--case", "notes.yaml", "was not written by a calibration; remove it or choose another --case"),
+        ("--case", "out/calibration.yaml", "is a file of the result; choose another --case"),
+        ("--output", ".", "calibration.yaml: is the calibration file itself; choose another --output"),
+        ("--output", "taken", "is no result of a calibration; remove it or choose another --output"),
+    ],
+)
+def test_no_file_that_is_there_is_replaced(
+    calibration_of, tmp_path, capsys, monkeypatch, option, place, said
+):
+    own = Path(small_case("none")["inlet"]["waveform"])
+    (tmp_path / "inlet.csv").write_text(own.read_text())
+    path = calibration_of(OUTLET, PRESSURES, inlet={"waveform": "inlet.csv"})
+    for folder in ("out", "taken"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "notes.yaml").write_text("mine: true\n")
+    (tmp_path / "taken/calibration.yaml").write_text("mine: true\n")
+    before = {each: each.read_bytes() for each in tmp_path.rglob("*") if each.is_file()}
+    monkeypatch.setattr(calibrate, "calibrated", lambda *_: pytest.fail("it was computed"))
+    chosen = {"--output": str(tmp_path / "out"), option: str(tmp_path / place)}
+    assert calibrate.main([str(path), *(word for pair in chosen.items() for word in pair)]) == 2
+    assert said in capsys.readouterr().err
+    assert {each: each.read_bytes() for each in tmp_path.rglob("*") if each.is_file()} == before
+
+
+def test_a_case_that_a_calibration_wrote_may_be_replaced(calibration_of, tmp_path):
+    calibration = load_calibration(calibration_of(OUTLET, PRESSURES))
+    target = tmp_path / "fitted.yaml"
+    for offset in (9000.0, 9500.0):
+        calibrate.check_case(target, calibration)
+        calibrate.write_case(target, calibration, np.array([1e9, offset]))
+    assert numeric_keys(load_case_file(target).variants["none"])["outlet.offset"].value == 9500.0

@@ -1,5 +1,6 @@
 """Sweeps: their numbers are those of ordinary runs, and of a comparison; an interrupted one ends the same."""
 
+import errno
 import json
 import shutil
 
@@ -12,6 +13,8 @@ from small_sweep import GRID, records, small_study, study_file, swept
 
 from cases.case_file import load_case_file
 from febio_io.errors import FebioError
+from reports.errors import ReportError
+from reports.sweep.load import load_sweep
 from solver.case_run import run_case
 from validation import compare
 from validation.errors import ValidationError
@@ -150,6 +153,30 @@ def test_a_damaged_part_is_computed_again(whole, tmp_path):
     assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
 
 
+def one_bit_changed(content):
+    """The bytes of a part with one bit of a stored modulus (1e7 Pa) changed, its metadata intact."""
+    at = content.index(np.array([1e7]).tobytes())
+    return content[:at] + bytes([content[at] ^ 1]) + content[at + 1 :]
+
+
+def test_a_part_with_a_changed_number_is_computed_again(whole, tmp_path):
+    study, expected, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    part = tmp_path / "out/samples/part-000002.parquet"
+    part.write_bytes(one_bit_changed(part.read_bytes()))
+    with pytest.raises(ReportError, match=r"part-000002\.parquet: cannot be read as Parquet"):
+        load_sweep(tmp_path / "out")
+    assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
+
+
+def test_a_part_without_some_columns_is_computed_again(whole, tmp_path):
+    study, expected, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    part = tmp_path / "out/samples/part-000001.parquet"
+    pd.read_parquet(part)[["sample", "status"]].to_parquet(part)
+    assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
+
+
 def test_a_finished_sweep_computes_nothing(whole, monkeypatch):
     study, expected, folder = whole
     monkeypatch.setattr(run, "connected", None)  # whoever calls it fails
@@ -214,6 +241,28 @@ def test_a_folder_of_other_things_and_one_in_use_are_refused(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(ValidationError, match="file: cannot be written"):
         swept(study, tmp_path / "file")
+
+
+@pytest.mark.parametrize(
+    ("writer", "name"),
+    [
+        ("validation.sweep.account.write_text", "study.yaml"),
+        ("validation.sweep.account.write_json", "study.json"),
+        ("validation.sweep.folder.pq.write_table", "samples/part-000002.parquet"),
+        ("reports.sweep.write_sweep_page", "index.html"),
+    ],
+)
+def test_a_full_disk_is_one_message(whole, tmp_path, capsys, monkeypatch, writer, name):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    shutil.copytree(whole[2], tmp_path / "out")
+    (tmp_path / "out/samples/part-000002.parquet").unlink()
+    monkeypatch.setattr(writer, full)
+    command = [str(study_file(tmp_path)), "--scheduler", "threads", "--workers", "1"]
+    assert main([*command, "--output", str(tmp_path / "out")]) == 2
+    said = f"{tmp_path / 'out' / name}: cannot be written: No space left on device\n"
+    assert capsys.readouterr().err == said
 
 
 def test_an_account_that_is_damaged_is_refused(whole, tmp_path):

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from small_sweep import small_study
 
-from validation.sweep.chunk import Plan
 from validation.sweep.folder import part_path, schema_of, write_part
 from validation.sweep.samples import samples_of_study
 from validation.sweep.sensitivity import sensitivity, whole_groups
@@ -21,7 +20,6 @@ def recorded(folder, failing=()):
     design = {"kind": "saltelli", "count": 256, "seed": 2}
     study = small_study(folder, parameters=PARAMETERS, design=design, outputs=OUTPUTS)
     samples = samples_of_study(study)
-    plan = Plan(tuple(PARAMETERS), study.outputs, {})
     (folder / "samples").mkdir()
     rows = []
     for number in range(len(samples)):
@@ -30,7 +28,7 @@ def recorded(folder, failing=()):
         lost = number in failing
         about = {"sample": number, "variant": "local", "status": "failed" if lost else "ok"}
         rows.append(about | {"flow_amplitude": None if lost else value, "largest_radius": 1.0})
-    write_part(part_path(folder, 0), rows, schema_of(plan))
+    write_part(part_path(folder, 0), rows, schema_of(PARAMETERS, OUTPUTS))
     return study
 
 

@@ -103,6 +103,14 @@ RANGE = {"start": "1 MPa", "stop": "2 MPa", "count": 2}
         ({"against": "3D"}, "against: 3D; allowed: none, coupled, reference"),
         ({"parameters": None}, "parameters: nothing; allowed: keys of the case"),
         (
+            {"parameters": {"inlet.scale": {"distribution": ["uniform"], "low": 1, "high": 2}}},
+            "distribution: a list; allowed: uniform, loguniform",
+        ),
+        (
+            {"parameters": {"inlet.scale": {"distribution": {"a": 1}, "low": 1, "high": 2}}},
+            "distribution: a section; allowed: uniform, loguniform",
+        ),
+        (
             {"parameters": {"blood.viscosty": ["1 Pa s"]}},
             "no number of the case; did you mean blood.viscosity?",
         ),

@@ -73,6 +73,7 @@ def main(argv: list[str] | None = None) -> int:
         _check_libraries()
         _check_scheduler(arguments.scheduler)
         from reports.sweep import write_sweep_page
+        from validation.sweep.folder import PAGE_FILES, writing
         from validation.sweep.run import Where, run_sweep
         from validation.sweep.study import load_study
 
@@ -81,7 +82,8 @@ def main(argv: list[str] | None = None) -> int:
         workers = arguments.workers or available_threads()
         where = Where(folder, arguments.scheduler, workers, arguments.fresh)
         counts = run_sweep(study, where, lambda words: print(words, file=sys.stderr))
-        page, _ = write_sweep_page(folder)
+        with writing(folder / PAGE_FILES[0]):
+            page, _ = write_sweep_page(folder)
     except EXPECTED as error:
         print(error, file=sys.stderr)
         return WRONG_INPUT

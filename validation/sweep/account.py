@@ -11,7 +11,7 @@ from validation.cached_runs import canonical, code_digest
 from validation.output import write_json, write_text
 from validation.provenance import git_commit, installed, shown_path
 from validation.sweep import outputs, parameters
-from validation.sweep.folder import ACCOUNT, STUDY, Counts
+from validation.sweep.folder import ACCOUNT, STUDY, Counts, writing
 from validation.sweep.judging import STATES
 from validation.sweep.study import Study
 
@@ -65,13 +65,27 @@ def write_account(
     counts: Counts,
     sensitivity: list[dict[str, Any]] | None = None,
 ) -> None:
-    """Write study.json with how far the sweep is."""
+    """Write study.json with how far the sweep is.
+
+    Raises
+    ------
+    ValidationError
+        If it cannot be written.
+    """
     total = account["design"]["samples"]
     progress = {"done": counts.done, "failed": counts.failed, "total": total}
     found = {"state": state, "counts": progress, "sensitivity": sensitivity}
-    write_json(folder / ACCOUNT, account | found)
+    with writing(folder / ACCOUNT):
+        write_json(folder / ACCOUNT, account | found)
 
 
 def write_study(folder: Path, study: Study) -> None:
-    """Keep the study as it was read."""
-    write_text(folder / STUDY, study.text)
+    """Keep the study as it was read.
+
+    Raises
+    ------
+    ValidationError
+        If it cannot be written.
+    """
+    with writing(folder / STUDY):
+        write_text(folder / STUDY, study.text)

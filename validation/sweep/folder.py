@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,12 +13,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from validation.errors import ValidationError
-from validation.sweep.chunk import FAILED, Plan, Record
+from validation.sweep.chunk import FAILED, Record
 
 STUDY, ACCOUNT, SAMPLES, LOCK = "study.yaml", "study.json", "samples", ".lock"
 PAGE_FILES = ("index.html", "index.pdf")
 OWN_FILES = (STUDY, ACCOUNT, SAMPLES, LOCK, *PAGE_FILES)
-COUNTED = ["sample", "status"]
 
 
 @dataclass(frozen=True)
@@ -33,15 +32,15 @@ class Counts:
         return Counts(self.done + other.done, self.failed + other.failed)
 
 
-def schema_of(plan: Plan) -> pa.Schema:
-    """Return the columns of a dataset."""
+def schema_of(parameters: Iterable[str], outputs: Iterable[str]) -> pa.Schema:
+    """Return the columns of a dataset, from the names of its parameters and outputs."""
     columns = [
         ("sample", pa.int64()),
         ("variant", pa.string()),
         ("status", pa.string()),
         ("error", pa.string()),
     ]
-    numbers = ["seconds", *plan.parameters, *(output.name for output in plan.outputs)]
+    numbers = ["seconds", *parameters, *outputs]
     return pa.schema([*columns, *((name, pa.float64()) for name in numbers)])
 
 
@@ -109,6 +108,21 @@ def cleared(folder: Path) -> None:
         path.unlink(missing_ok=True)
 
 
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Say of what cannot be written which file it is.
+
+    Raises
+    ------
+    ValidationError
+        In place of an OSError.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
 def part_path(folder: Path, number: int) -> Path:
     """Return where the samples of one chunk lie."""
     return folder / SAMPLES / f"part-{number:06d}.parquet"
@@ -119,19 +133,21 @@ def write_part(path: Path, records: Sequence[Record], schema: pa.Schema) -> Coun
 
     Raises
     ------
-    OSError
+    ValidationError
         If it cannot be written.
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        pq.write_table(pa.Table.from_pylist(list(records), schema), partial)
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
+    table = pa.Table.from_pylist(list(records), schema)
+    with writing(path):
+        try:
+            pq.write_table(table, partial, write_page_checksum=True)
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)
     return Counts(len(records), sum(record["status"] == FAILED for record in records))
 
 
-def parts_present(folder: Path, chunks: Sequence[range]) -> dict[int, Counts]:
+def parts_present(folder: Path, chunks: Sequence[range], schema: pa.Schema) -> dict[int, Counts]:
     """Return the chunks that are recorded, by number; remove what a killed writer left, and damaged parts.
 
     Parameters
@@ -140,9 +156,12 @@ def parts_present(folder: Path, chunks: Sequence[range]) -> dict[int, Counts]:
         A claimed folder of this study.
     chunks : sequence of range
         Numbers of the samples of each chunk.
+    schema : pyarrow.Schema
+        The columns of a part.
     """
     place = folder / SAMPLES
-    place.mkdir(exist_ok=True)
+    with writing(place):
+        place.mkdir(exist_ok=True)
     for path in place.glob(".*.part"):
         path.unlink(missing_ok=True)
     found = {}
@@ -150,7 +169,7 @@ def parts_present(folder: Path, chunks: Sequence[range]) -> dict[int, Counts]:
         path = part_path(folder, number)
         if not path.exists():
             continue
-        counts = _counts_of(path, numbers)
+        counts = _counts_of(path, numbers, schema)
         if counts is None:
             path.unlink()
         else:
@@ -158,13 +177,13 @@ def parts_present(folder: Path, chunks: Sequence[range]) -> dict[int, Counts]:
     return found
 
 
-def _counts_of(path: Path, numbers: range) -> Counts | None:
-    """Count the records of a part; None where it is damaged or holds other samples."""
+def _counts_of(path: Path, numbers: range, schema: pa.Schema) -> Counts | None:
+    """Count the records of a part; None where it is damaged or holds other samples or columns."""
     try:
-        table = pq.read_table(path, columns=COUNTED)
-    except (pa.ArrowInvalid, OSError):
+        table = pq.read_table(path, page_checksum_verification=True)
+    except (pa.ArrowException, OSError):
         return None
-    if table["sample"].to_pylist() != list(numbers):
+    if not table.schema.equals(schema) or table["sample"].to_pylist() != list(numbers):
         return None
     return Counts(len(numbers), table["status"].to_pylist().count(FAILED))
 

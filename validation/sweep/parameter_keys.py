@@ -97,7 +97,7 @@ def _parameter(node: Node, key: NumericKey) -> Parameter:
 def _value(node: Node, key: NumericKey) -> float:
     """Return one value of the key, SI."""
     try:
-        return float(key.kind.parse(node.value, None))  # type: ignore[arg-type]
+        return float(key.kind.parse(node.plain(), None))  # type: ignore[arg-type]
     except RefusedValueError as error:
         raise _Wrong(node, str(error)) from error
 
@@ -122,7 +122,7 @@ def _range(node: Node, key: NumericKey) -> Parameter:
     ):
         raise _Wrong(count, f"{shown(count.plain())}; allowed: a whole number from 2 to {MOST_VALUES}")
     if spacing is not None and spacing.value not in SPACINGS:
-        raise _Wrong(spacing, not_one_of(spacing.value, SPACINGS))
+        raise _Wrong(spacing, not_one_of(spacing.plain(), SPACINGS))
     values = _spaced(node, start, stop, count.value, spacing is not None and spacing.value == "log")
     if key.whole and np.any(values != np.rint(values)):
         raise _Wrong(node, f"{values[1]:g} among the values; allowed: whole numbers")
@@ -140,13 +140,13 @@ def _spaced(node: Node, start: float, stop: float, count: int, logarithmic: bool
 
 def _distribution(node: Node, key: NumericKey) -> Parameter:
     stated = node.section["distribution"]
-    if stated.value not in NEEDED:
-        raise _Wrong(stated, not_one_of(stated.value, NEEDED))
+    if not isinstance(stated.value, str) or stated.value not in NEEDED:
+        raise _Wrong(stated, not_one_of(stated.plain(), NEEDED))
     if key.whole:
         raise _Wrong(
             stated, f"{stated.value} for a whole number; allowed: a list of values, {{start, stop, count}}"
         )
-    kind = str(stated.value)
+    kind = stated.value
     needed, optional = NEEDED[kind], OPTIONAL.get(kind, ())
     _refuse_unknown(node, ("distribution", *needed, *optional, "label"))
     read: dict[str, Callable[[Node, NumericKey], float]] = {SPREAD: _spread}
@@ -165,10 +165,12 @@ def _spread(node: Node, key: NumericKey) -> float:
     )
     try:
         found = (
-            parse_ratio(node.value) if unit == "1" else parse_quantity(node.value, DIMENSION_OF_UNIT[unit])
+            parse_ratio(node.plain())
+            if unit == "1"
+            else parse_quantity(node.plain(), DIMENSION_OF_UNIT[unit])
         )
         if found <= 0:
-            raise refused(node.value, allowed)
+            raise refused(node.plain(), allowed)
     except QuantityError as error:
         raise _Wrong(node, but_allowed(f"{shown(node.plain())}: {error}", allowed)) from error
     except RefusedValueError as error:

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+import pyarrow as pa
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -86,19 +87,22 @@ def run_sweep(study: Study, where: Where, tell: Tell) -> Counts:
     if study.against == "reference":
         check_computed(study.base, study.cases)
     digest = digest_of(study, chunks)
+    schema = schema_of(
+        [parameter.name for parameter in study.parameters], [output.name for output in study.outputs]
+    )
     with claimed(where.folder):
         judges = None
         if where.fresh:
             judges = _standards(study, tell)  # a reference that cannot be read leaves the earlier sweep
             cleared(where.folder)
         _refuse_another(where.folder, digest)
-        present = parts_present(where.folder, chunks)
+        present = parts_present(where.folder, chunks, schema)
         account = account_of(study, digest, len(samples), size)
         write_study(where.folder, study)
         counts = sum(present.values(), Counts())
         write_account(where.folder, account, "running", counts)
         missing = [number for number in range(len(chunks)) if number not in present]
-        keep = _Keeper(where.folder, account, counts, time.monotonic())
+        keep = _Keeper(where.folder, schema, account, counts, time.monotonic())
         try:
             if missing:
                 plan = _plan(study, judges or _standards(study, tell))
@@ -124,11 +128,12 @@ class _Keeper:
     """Records what is computed, and now and then how far the sweep is."""
 
     folder: Path
+    schema: pa.Schema
     account: dict[str, object]
     counts: Counts
     written: float
 
-    def keep(self, number: int, records: Sequence[dict[str, object]], plan: Plan) -> None:
+    def keep(self, number: int, records: Sequence[dict[str, object]]) -> None:
         """Write one chunk.
 
         Raises
@@ -136,14 +141,10 @@ class _Keeper:
         ValidationError
             If it cannot be written.
         """
-        path = part_path(self.folder, number)
-        try:
-            self.counts += write_part(path, records, schema_of(plan))
-            if time.monotonic() - self.written > ACCOUNT_EVERY:
-                write_account(self.folder, self.account, "running", self.counts)
-                self.written = time.monotonic()
-        except OSError as error:
-            raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
+        self.counts += write_part(part_path(self.folder, number), records, self.schema)
+        if time.monotonic() - self.written > ACCOUNT_EVERY:
+            write_account(self.folder, self.account, "running", self.counts)
+            self.written = time.monotonic()
 
 
 def _standards(study: Study, tell: Tell) -> dict[str, Standard]:
@@ -169,7 +170,7 @@ def _run_missing(
         blocks = ((number, samples.block(chunks[number])) for number in missing)
         with connected(where.scheduler, where.workers, tell) as client:
             for number, records in computed(client, blocks, plan):
-                keeper.keep(number, records, plan)
+                keeper.keep(number, records)
                 update()
 
 
