@@ -10,6 +10,7 @@ from pydantic import ValidationInfo, field_validator
 from cases.case_file import CaseFile, check_section, load_case_file, part_of, unknown_keys
 from cases.errors import CaseFileError, Problem, QuantityError, RefusedValueError
 from cases.fields import FIELDS
+from cases.file_kinds import require_kind
 from cases.numeric_keys import NumericKey, numeric_keys
 from cases.ranges import SIZES, Range
 from cases.schema import Case
@@ -198,6 +199,7 @@ def load_calibration(path: Path) -> Calibration:
     """
     text = read_text(path)
     root = parse_yaml(text, path)
+    require_kind(root, path, "calibration")
     problems = unknown_keys(root, FILE_KEYS)
     context = Context(path.resolve().parent, ())
     stated = part_of(root, tuple(key for key in FILE_KEYS if key != "parameters"))

@@ -9,6 +9,7 @@ from typing import TypeVar
 from pydantic import ValidationError
 
 from cases.errors import CaseFileError, Problem
+from cases.file_kinds import require_kind
 from cases.problems import problems_of
 from cases.schema import Case
 from cases.section import Section
@@ -80,6 +81,7 @@ def load_case_file(path: str | Path) -> CaseFile:
     path = Path(path)
     text = read_text(path)
     root = parse_yaml(text, path)
+    require_kind(root, path, "case")
     problems = unknown_keys(root, FILE_KEYS)
     heading = check_section(_Heading, part_of(root, ("name", "title")), None, problems)
     overrides = overrides_of(root, problems)

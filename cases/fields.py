@@ -64,7 +64,7 @@ FIELDS = _table(
     Field(
         "section_pressure_range",
         "ΔP_section",
-        "largest difference of pressure within the section",
+        "largest difference of pressure between any two points of the section",
         "Pa",
         "Pa",
         1.0,

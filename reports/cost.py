@@ -3,9 +3,7 @@
 from reports.blocks import Column, Table
 from reports.load import Comparison
 from reports.numbers import ABSENT, SPACE, rounded, with_unit
-from reports.provenance_file import SimulationCost
-
-_STEP_OF_2D = "reduced model"
+from reports.provenance_file import ReducedModelSettings, SimulationCost
 
 
 def cost_table(comparison: Comparison) -> Table | None:
@@ -16,9 +14,9 @@ def cost_table(comparison: Comparison) -> Table | None:
         return None
     return Table(
         "cost",
-        "Cost of the simulations: 3D as told by the log, on the machine where it ran; 2D as measured in this "
-        "run, which runs two variants at once and compiles if it is the first. The last column is wall time "
-        "over wall time, whatever the machines and however many cycles each simulated.",
+        "Cost of the simulations: 3D as told by the log, on the machine where it ran; 2D as measured when it "
+        "was computed, without compiling, perhaps beside another variant. The last column is "
+        "wall time per simulated cycle over the same of 2D, whatever the machines.",
         (
             Column("variant"),
             Column("wall time", "number", "3D"),
@@ -28,6 +26,7 @@ def cost_table(comparison: Comparison) -> Table | None:
             Column("equations", "number", "3D"),
             Column("ended", "prose", "3D"),
             Column("wall time", "number", "2D"),
+            Column("cycles", "number", "2D"),
             Column("steps", "number", "2D"),
             Column("3D over 2D", "number"),
         ),
@@ -36,10 +35,7 @@ def cost_table(comparison: Comparison) -> Table | None:
 
 
 def _cost_row(comparison: Comparison, name: str, cost: SimulationCost) -> tuple[str, ...]:
-    two = comparison.provenance.wall_times_s.get(f"{name}: {_STEP_OF_2D}")
-    row = comparison.metrics.find(name, "time_steps", "cost")
-    steps = row.rom if row else None
-    ratio = cost.wall_time_s / two if cost.wall_time_s is not None and two else None
+    two = comparison.provenance.variants[name].rom
     retries = f" ({cost.retries} retried)" if cost.retries else ""
     version = f"FEBio {cost.febio_version}" if cost.febio_version else "FEBio"
     return (
@@ -50,10 +46,18 @@ def _cost_row(comparison: Comparison, name: str, cost: SimulationCost) -> tuple[
         str(cost.iterations),
         ABSENT if cost.equations is None else str(cost.equations),
         f"{cost.ended} ({version})",
-        _duration(two),
-        ABSENT if steps is None else f"{steps:.0f}",
-        rounded(ratio, 2),
+        _duration(two.simulation_wall_time_s),
+        ABSENT if two.cycles is None else str(two.cycles),
+        ABSENT if two.steps is None else str(two.steps),
+        rounded(_per_cycle(comparison.period, cost, two), 2),
     )
+
+
+def _per_cycle(period: float, cost: SimulationCost, two: ReducedModelSettings) -> float | None:
+    """Wall time of a cycle in 3D over that in 2D; None where either, or how much it simulated, is unknown."""
+    if not (cost.wall_time_s and cost.simulated_s and two.simulation_wall_time_s and two.cycles):
+        return None
+    return (cost.wall_time_s / (cost.simulated_s / period)) / (two.simulation_wall_time_s / two.cycles)
 
 
 def _duration(seconds: float | None) -> str:

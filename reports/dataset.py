@@ -168,6 +168,8 @@ class Attributes:
     ----------
     case, title, baseline, case_yaml : str
         As stored.
+    period : float
+        Of the cycle (s).
     i, j : tuple of int
         Cells to show, counted from 1.
     times : tuple of (str, float)
@@ -181,6 +183,7 @@ class Attributes:
     baseline: str
     baselines: dict[str, str]
     case_yaml: str
+    period: float
     i: tuple[int, ...]
     j: tuple[int, ...]
     times: tuple[tuple[str, float], ...]
@@ -206,6 +209,7 @@ def read_attributes(path: Path, dataset: xr.Dataset) -> Attributes:
         baseline=texts["baseline"],
         baselines=_baselines(path, dataset, texts["baseline"], variants),
         case_yaml=texts["case_yaml"],
+        period=_period(path, dataset),
         i=_cells(path, "compare_i", dataset.attrs["compare_i"], dataset.sizes["x"]),
         j=_cells(path, "compare_j", dataset.attrs["compare_j"], dataset.sizes["phi"]),
         times=_instants(path, dataset, texts["compare_time_names"]),
@@ -254,15 +258,20 @@ def _cells(path: Path, name: str, value: object, size: int) -> tuple[int, ...]:
 def _instants(path: Path, dataset: xr.Dataset, text: str) -> tuple[tuple[str, float], ...]:
     """Names and times to show; each time must be one of the states'."""
     times = _numbers(path, "compare_times_s", dataset.attrs["compare_times_s"], "fiu")
+    period = _period(path, dataset)
+    for name, t in zip(_time_names(path, text, times.size), times, strict=True):
+        if np.abs(dataset["time"].values - t).min() > 1e-6 * period:
+            raise ReportError(f"{path}: no state at {t:g} s ({name}), which compare_times_s names")
+    return tuple(zip(_time_names(path, text, times.size), times.tolist(), strict=True))
+
+
+def _period(path: Path, dataset: xr.Dataset) -> float:
     period = _numbers(path, "period_s", dataset.attrs["period_s"], "fiu")
     if period.size != 1 or period[0] <= 0:
         raise ReportError(
             f"{path}: period_s is {dataset.attrs['period_s']!r}; one positive number is expected"
         )
-    for name, t in zip(_time_names(path, text, times.size), times, strict=True):
-        if np.abs(dataset["time"].values - t).min() > 1e-6 * period[0]:
-            raise ReportError(f"{path}: no state at {t:g} s ({name}), which compare_times_s names")
-    return tuple(zip(_time_names(path, text, times.size), times.tolist(), strict=True))
+    return float(period[0])
 
 
 def _time_names(path: Path, text: str, count: int) -> list[str]:

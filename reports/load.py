@@ -26,6 +26,8 @@ class Comparison:
         Name, heading, variant without calcification ("" for none), the case file's text.
     variants : tuple of str
         In the order of the case file.
+    period : float
+        Of the cycle (s).
     i, j : tuple of int
         Cells to show, counted from 1.
     x, phi : tuple of float
@@ -64,6 +66,7 @@ class Comparison:
     baseline: str
     case_yaml: str
     variants: tuple[str, ...]
+    period: float
     i: tuple[int, ...]
     j: tuple[int, ...]
     x: tuple[float, ...]
@@ -138,6 +141,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
         baseline=attributes.baseline,
         case_yaml=attributes.case_yaml,
         variants=variants,
+        period=attributes.period,
         i=attributes.i,
         j=attributes.j,
         x=tuple(dataset["x"].values[columns].tolist()),

@@ -15,6 +15,7 @@ from reports.strict_json import read_json
 DIFFERENCE_STATISTICS = ("rms_difference", "max_difference")
 
 Status = Literal["", "OK", "FAIL", "MISSING"]
+Model = Literal["reference", "rom"]
 Number = Annotated[int, Field(ge=1)]
 Limit = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 
@@ -68,10 +69,11 @@ class Metrics:
         """Return the one row about this, or None where the comparison has none."""
         return self.index.get((variant, quantity, statistic, i, j, _instant(t_s)))
 
-    def largest_row(self, variant: str, quantity: str) -> Row | None:
-        """Return the row of the largest value, which may name the cell where it was found."""
+    def largest_row(self, variant: str, quantity: str, model: Model) -> Row | None:
+        """Return the row of a model's largest value, which may name the cell where it was found."""
         for row in self.rows:
-            if (row.variant, row.quantity, row.statistic) == (variant, quantity, "largest"):
+            about = (row.variant, row.quantity, row.statistic) == (variant, quantity, "largest")
+            if about and getattr(row, model) is not None:
                 return row
         return None
 

@@ -97,6 +97,8 @@ def counted(count: int, noun: str) -> str:
 
 
 def listed(items: Iterable[object]) -> str:
-    """E.g. "1, 39 and 61"."""
+    """E.g. "1, 39 and 61"; what has commas itself stands between semicolons."""
     words = [str(item) for item in items]
+    if any("," in word for word in words):
+        return "; ".join(words)
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}" if words else ""

@@ -23,7 +23,7 @@ def table(comparison: Comparison) -> Table | None:
         for (name, quantity), by in found.items():
             if name == variant:
                 largest = by.get("max_error")
-                where = place(largest) if largest else ABSENT
+                where = place(largest) if largest and not _round_off(largest) else ABSENT
                 figures = _figures(by, _interval(comparison, variant, quantity))
                 lines.setdefault((variant, *figures), []).append((quantity_words(quantity), where))
     rows = tuple(
@@ -54,6 +54,11 @@ def table(comparison: Comparison) -> Table | None:
         rows,
         rule_by=0,
     )
+
+
+def _round_off(row: Row) -> bool:
+    """Whether a largest error is shown as zero, so that its place says nothing."""
+    return row.error is not None and percent(row.error) == percent(0.0)
 
 
 def _figures(by: dict[str, Row], interval: str) -> tuple[str, ...]:

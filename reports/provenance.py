@@ -1,5 +1,6 @@
 """Last section: what the comparison was made from, and how to make it again."""
 
+import hashlib
 import json
 from collections.abc import Mapping
 
@@ -8,6 +9,7 @@ from reports.cost import cost_table, records_table
 from reports.load import Comparison
 from reports.numbers import ABSENT, counted
 
+_SMALL = 1e-6  # figures that matter by their order of magnitude only
 _KEYS = {
     "n_x": "cells along the artery",
     "n_phi": "cells around the artery",
@@ -22,6 +24,8 @@ def _word(value: object) -> str:
         return ABSENT
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, float) and 0.0 < abs(value) < _SMALL:
+        return f"{value:.1e}"
     if isinstance(value, float):
         return f"{value:.6g}"
     if isinstance(value, dict | list):
@@ -75,7 +79,9 @@ def _models(comparison: Comparison, side: str, caption: str) -> Table:
 
 def _inputs(comparison: Comparison) -> Table:
     p = comparison.provenance
-    files = [(p.case.path, ABSENT, p.case.sha256)]
+    text = comparison.case_yaml.encode()
+    as_kept = hashlib.sha256(text).hexdigest() == p.case.sha256  # else with other line ends or a mark
+    files = [(p.case.path, str(len(text)) if as_kept else ABSENT, p.case.sha256)]
     files += [(file.path, str(file.bytes), file.sha256) for file in p.inputs]
     rows = tuple({(path, sha): (path, size, sha) for path, size, sha in files}.values())
     return Table(
@@ -102,7 +108,12 @@ def section(comparison: Comparison) -> Section:
     blocks += [table for table in (records_table(comparison), cost_table(comparison)) if table]
     if p.wall_times_s:
         blocks.append(
-            _pairs("wall-times", "Wall-clock times of this run.", ("step", "seconds"), p.wall_times_s)
+            _pairs(
+                "wall-times",
+                "Wall-clock times of this run; what comes from the cache takes as long as reading it.",
+                ("step", "seconds"),
+                p.wall_times_s,
+            )
         )
     blocks.append(_inputs(comparison))
     blocks.append(_pairs("versions", "Versions of the libraries.", ("package", "version"), p.versions))

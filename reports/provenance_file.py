@@ -39,6 +39,10 @@ class _Settings(_Record):
         return {**self.__pydantic_extra__, **self.model_dump(include=self.model_fields_set)}
 
 
+Count = Annotated[int, Field(ge=0)]
+Amount = Annotated[float, Field(ge=0)]
+
+
 class ReducedModelSettings(_Settings):
     """How the 2D model ran.
 
@@ -48,14 +52,22 @@ class ReducedModelSettings(_Settings):
         Cycles of the inlet that it ran.
     cycle_change : float, optional
         Largest relative change of its pressure and flow rate over its last cycle.
+    steps : int, optional
+        Time steps of all cycles.
+    simulation_wall_time_s : float, optional
+        Wall time of its run when it was computed, without compiling, s.
     """
 
-    cycles: int | None = None
-    cycle_change: Annotated[float, Field(ge=0)] | None = None
+    cycles: Count | None = None
+    cycle_change: Amount | None = None
+    steps: Count | None = None
+    simulation_wall_time_s: Amount | None = None
 
-
-Count = Annotated[int, Field(ge=0)]
-Amount = Annotated[float, Field(ge=0)]
+    def facts(self) -> dict[str, JsonValue]:
+        """All facts but the cost, which has a table of its own."""
+        return {
+            k: v for k, v in super().facts().items() if k not in ("wall_time_s", "simulation_wall_time_s")
+        }
 
 
 class SimulationCost(_Record):
@@ -104,7 +116,7 @@ class ReferenceSettings(_Settings):
 
     def facts(self) -> dict[str, JsonValue]:
         """All facts but those that have tables of their own."""
-        return {k: v for k, v in super().facts().items() if k not in ("cost", "data_records")}
+        return {k: v for k, v in super().facts().items() if k not in ("cost", "data_records", "wall_time_s")}
 
 
 class VariantRecord(_Record):

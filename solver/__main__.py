@@ -11,10 +11,12 @@ from solver.diagnostics import Limits
 from solver.errors import SolverError
 from solver.files import check_folder
 from solver.locality import locality_warning
+from solver.periodicity import periodicity_warning
 from solver.progress import progress_bar
 from solver.run import pieces_folder, run_identity, run_to_file
 
 WRONG_INPUT, INTERRUPTED = 2, 130
+USUAL = "what is usual: docs/methods.md, Diagnostics; solver.limits in the case stops a run beyond a limit"
 
 
 def _arguments() -> argparse.Namespace:
@@ -66,14 +68,18 @@ def main() -> int:
         kept = pieces_folder(arguments.output)
         print(f"interrupted; --resume goes on from the last piece in {kept}", file=sys.stderr)
         return INTERRUPTED
-    warning = locality_warning(done.get("wall_locality_error"))
-    if warning:
+    warnings = (locality_warning(done.get("wall_locality_error")), periodicity_warning(done["cycle_change"]))
+    for warning in filter(None, warnings):
         print(f"warning: {warning}", file=sys.stderr)
     print(f"{arguments.output}: {done['steps']} steps of at most {done['time_step_s']:.6g} s")
     for name in vars(Limits()):
         value = done["largest"][name]
         found = f"at most {value:.3g}" if math.isfinite(value) else "not evaluated: states too far apart"
         print(f"  {name.replace('_', ' ')} {found}")
+    change = done["cycle_change"]
+    told = "not evaluated: no state was saved at its start" if change is None else f"{change:.3g} (relative)"
+    print(f"  change over the last cycle {told}")
+    print(f"  {USUAL}")
     return 0
 
 

@@ -25,6 +25,7 @@ from solver.files import write_netcdf
 from solver.from_case import default_output_times, model_of
 from solver.locality import wall_locality_error, widest
 from solver.model import Model
+from solver.periodicity import cycle_change
 from solver.result import CellHistory, cell_dataset
 from solver.simulate import Progress
 from solver.walk import Kept, Stop, history_of
@@ -105,7 +106,8 @@ def run_to_file(
     Returns
     -------
     dict
-        ``steps``, ``time_step_s`` and ``largest``, the largest magnitude of each diagnostic by name.
+        ``steps``, ``time_step_s``, ``largest``, the largest magnitude of each diagnostic by name, and
+        ``cycle_change``, None where it cannot be told.
 
     Raises
     ------
@@ -216,9 +218,12 @@ def _join(
                         stored[name][count:] = dataset[name].to_numpy()
         with netCDF4.Dataset(partial, "a") as stored:
             stored.setncatts(counts(case, steps, sweeps, longest))
+            change = cycle_change(case, stored.variables)
+            if change is not None:
+                stored.setncatts({"cycle_change": change})
         partial.replace(result)
     except OSError as error:
         raise SolverError(f"{result}: cannot be written: {error.strerror or error}") from error
     finally:
         partial.unlink(missing_ok=True)
-    return {"steps": steps, "time_step_s": longest, "largest": largest}
+    return {"steps": steps, "time_step_s": longest, "largest": largest, "cycle_change": change}

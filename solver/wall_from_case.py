@@ -44,10 +44,22 @@ def patch_of(stated: Part) -> Patch:
 
 
 def modulus_on_grid(case: Case, grid: Grid, healthy: float) -> Floats:
-    """Young's modulus of a calcifying material in every cell, Pa; of several parts the largest change."""
+    """Young's modulus of a calcifying material in every cell, Pa; of several parts the largest change.
+
+    Raises
+    ------
+    ModelError
+        If a calcified part changes no cell.
+    """
     modulus = np.full((grid.n_x, grid.n_phi), healthy)
     for part in case.calcification.parts:
-        own = calcified_stiffness(healthy, part.youngs_modulus, scaled_distance(grid, patch_of(part)))
+        distance = scaled_distance(grid, patch_of(part))
+        if not np.any(distance < 1):
+            raise ModelError(
+                f"calcification: the {part.pattern} one from x = {part.x[0]:g} m holds no centre of a cell; "
+                f"allowed: one that does on {grid.n_x} x {grid.n_phi} cells"
+            )
+        own = calcified_stiffness(healthy, part.youngs_modulus, distance)
         modulus = np.where(np.abs(own - healthy) > np.abs(modulus - healthy), own, modulus)
     return modulus
 

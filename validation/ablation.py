@@ -25,13 +25,13 @@ from reports import ReportError, write_reports
 from solver.errors import SolverError
 from solver.from_case import grid_of
 from validation.errors import ValidationError
+from validation.generated import check_stated
 from validation.ladder import models_between
 from validation.output import MARK, write_json
 from validation.rays import rays
 from validation.reduced_model import run_reduced_model
 from validation.reference import Reference
-from validation.reference_kinds import REFERENCE_KINDS
-from validation.run import Watch, watching
+from validation.run import Watch, kind_of, watching
 from validation.statistics import largest, rms
 from validation.thesis_sectors import sector_errors
 
@@ -127,17 +127,12 @@ def ablation_rows(file: CaseFile, table: Path | None, watch: Watch) -> Iterator[
     ValidationError
         If a variant states no reference; else as the readers raise.
     """
+    check_stated(file)
     for variant, case in file.variants.items():
-        if case.reference is None:
-            raise ValidationError(
-                f"variant {variant!r} states no reference: there is nothing to compare with"
-            )
         models = models_between(case)
         grid = grid_of(case)
         with watch.step(f"{variant}: 3D onto cells") as progress:
-            reference = REFERENCE_KINDS[case.reference.kind].read(
-                case, rays(grid.x, grid.phi), progress, None
-            )
+            reference = kind_of(variant, case).read(case, rays(grid.x, grid.phi), progress, None)
         for model, changed in models.items():
             with watch.step(f"{variant}: {model}"):
                 yield ablation_row(variant, model, changed, reference, table)
@@ -188,7 +183,12 @@ def _arguments(argv: list[str] | None) -> argparse.Namespace:
         description="Run each model between the thesis's and the coupled one against the same 3D runs.",
     )
     parser.add_argument("case", type=Path, metavar="CASE.yaml", help="case file")
-    parser.add_argument("--output", type=Path, metavar="DIR", help="folder (default: results/NAME)")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="folder (default: results/NAME-ablation); the report of a comparison there gets the table",
+    )
     parser.add_argument(
         "--sectors", type=Path, metavar="CSV", help="the thesis's table 3.8, for local calcifications"
     )
@@ -200,7 +200,7 @@ def main(argv: list[str] | None = None) -> int:
     arguments = _arguments(argv)
     try:
         file = load_case_file(arguments.case)
-        directory = arguments.output or Path("results") / file.name
+        directory = arguments.output or Path("results") / f"{file.name}-ablation"
         with watching() as watch:
             rows = list(ablation_rows(file, arguments.sectors, watch))
         write_rows(directory, rows)

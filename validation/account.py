@@ -7,13 +7,12 @@ from cases.case_file import CaseFile
 from cases.comparison import Band
 from cases.schema import Case
 from solver.locality import locality_warning
+from solver.periodicity import periodicity_warning
 from validation.alignment import WHOLE
 from validation.bootstrap import SEED
 from validation.comparison import VariantRun
 from validation.instants import nearest_states, wanted_instants
 from validation.provenance import provenance
-
-PERIODIC = 1e-4  # relative change over the last cycle from which a run is not periodic
 
 
 def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
@@ -55,11 +54,8 @@ def warnings_of(runs: Mapping[str, VariantRun]) -> list[str]:
             found.append(f"{name}: no state of the reference is near {', '.join(missed)}: not tabulated")
         warning = locality_warning(run.rom.description.get("wall_locality_error"))
         found += [f"{name}: {warning}"] if warning else []
-        if run.rom.cycle_change > PERIODIC:
-            found.append(
-                f"{name}: the reduced model is not periodic yet: it changes by {run.rom.cycle_change:.1e} "
-                "(relative) over its last cycle (raise solver.cycles)"
-            )
+        warning = periodicity_warning(run.rom.cycle_change)
+        found += [f"{name}: {warning}"] if warning else []
     return found
 
 

@@ -102,7 +102,10 @@ def _arguments(arguments: Sequence[str]) -> argparse.Namespace:
         "--output", type=Path, metavar="DIR", help="folder for results (default: results/NAME)"
     )
     parser.add_argument(
-        "--case", type=Path, metavar="FILE.yaml", help="write the case file with the fitted values too"
+        "--case",
+        type=Path,
+        metavar="FILE.yaml",
+        help="write the case file with the fitted values too; files that it names are looked for from there",
     )
     parser.add_argument(
         "--fresh", action="store_true", help="read the reference anew, whatever the cache has"
@@ -135,9 +138,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             check_case(chosen.case, calibration)
             _refuse_a_result(chosen.case, folder)
         wanted, found = calibrated(calibration, chosen.fresh)
-        if chosen.case is not None:
-            write_case(chosen.case, calibration, found.values)
         write_results(folder, calibration, wanted, found, command)
+        if chosen.case is not None:  # last, so that the numbers are kept whatever has become of its folder
+            write_case(chosen.case, calibration, found.values)
     except EXPECTED as error:
         told.print(str(error), markup=False, highlight=False, soft_wrap=True)
         return WRONG_INPUT

@@ -163,10 +163,20 @@ def _staged_case(path: Path, calibration: Calibration, values: Floats) -> Iterat
     except OSError as error:
         raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
     except CaseError as error:
-        message = str(error).replace(str(partial), str(path))
-        raise ValidationError(f"{path}: would be no case file in this folder:\n{message}") from error
+        raise ValidationError(_no_case(path, calibration, error, partial)) from error
     finally:
         partial.unlink(missing_ok=True)
+
+
+def _no_case(path: Path, calibration: Calibration, error: CaseError, partial: Path) -> str:
+    """Say in one line why the case would not be one at a path, and where it may lie."""
+    first, *others = str(error).replace(str(partial), str(path)).splitlines()
+    more = f" (and {len(others)} more)" if others else ""
+    own = calibration.file.path
+    return (
+        f"{first}{more}; allowed as --case: a file in a folder from which the files that {own} names are "
+        f"found, e.g. {own.with_name(path.name)}; without --case the fitted values are written alone"
+    )
 
 
 def _require_values(path: Path, calibration: Calibration, values: Floats) -> None:

@@ -37,7 +37,7 @@ from validation.comparison_file import ComparisonFile, comparison_file
 from validation.confidence import confidence_rows
 from validation.curved_section import curved_section_rows
 from validation.errors import ValidationError
-from validation.generated import check_computed
+from validation.generated import check_computed, check_stated
 from validation.metrics import Models, Row, models_of
 from validation.output import check_target, result_directory, write_json, write_metrics
 from validation.paraview import write_walls
@@ -107,8 +107,9 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
     CaseError, SolverError, FebioError, ValidationError
         For input that is wrong; ``target`` is then as it was.
     """
+    check_stated(file)
     check_variants(file.variants)
-    check_computed(file)
+    check_computed(file.path, file.variants)
     with watching(cache) as watch, result_directory(target) as directory:
         rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):

@@ -217,15 +217,18 @@ def check_rows(models: Models) -> Iterator[Row]:
         rom, reference = models.pair(quantity)
         yield models.row(quantity, "largest", rom=float(np.max(np.abs(rom))), reference=_largest(reference))
     for quantity in ("backflow_fraction", *DOMINANCE):
-        values = models.reference[quantity].to_numpy()
-        found = _largest(values)
-        cell = {}
-        if found is not None and values.ndim == 2:
-            place = np.unravel_index(int(np.nanargmax(values)), values.shape)
-            cell = {"i": int(place[0]) + 1, "j": int(place[1]) + 1}
-        own = models.rom.get(quantity)
-        estimate = None if own is None else float(own.max())
-        yield models.row(quantity, "largest", reference=found, rom=estimate, **cell)
+        for model, fields in (("reference", models.reference), ("rom", models.rom)):
+            if quantity in fields:  # a row a model: each is largest elsewhere
+                values = fields[quantity].to_numpy()
+                yield models.row(quantity, "largest", **{model: _largest(values)}, **_cell_of_largest(values))
+
+
+def _cell_of_largest(values: Floats) -> dict[str, int]:
+    """Cell of the largest of (n_x, n_phi) values; nothing of others, or where nothing is stated."""
+    if values.ndim != 2 or np.all(np.isnan(values)):
+        return {}
+    i, j = np.unravel_index(int(np.nanargmax(values)), values.shape)
+    return {"i": int(i) + 1, "j": int(j) + 1}
 
 
 def _largest(values: Floats) -> float | None:

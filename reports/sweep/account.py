@@ -10,7 +10,7 @@ from reports.numbers import ABSENT, counted, listed, rounded, share
 from reports.sweep.held import Held, sentence
 from reports.sweep.load import FAILED, Sweep
 from reports.sweep.study_file import Output, Parameter
-from reports.sweep.words import DESIGNS, amount
+from reports.sweep.words import DESIGNS, amount, ends, is_error
 
 _MOST_FAILURES = 200
 _AGAINST = {
@@ -25,7 +25,9 @@ def headline(sweep: Sweep, bands: Sequence[Held]) -> str:
     """Say in one line how many samples are within all their bands."""
     counts = sweep.study.counts
     if not bands:
-        return f"{len(sweep.samples)} of {counted(counts.total, 'sample')} run; no band judges them."
+        ran = f"{len(sweep.samples)} of {counted(counts.total, 'sample')} run; no band judges them."
+        errors = _errors(sweep)
+        return f"{ran} Median and largest error: {errors}." if errors else ran
     judged = [found for found in bands if len(found.ok)]
     if not judged:
         return "No sample has a value that a band could judge."
@@ -38,6 +40,18 @@ def headline(sweep: Sweep, bands: Sequence[Held]) -> str:
         f"{within} of {counted(len(inside), 'judged sample')} ({share(within / len(inside))}) are within all "
         "their bands."
     )
+
+
+def _errors(sweep: Sweep) -> str:
+    """Say how large the errors are over all samples; "" where the samples are compared with nothing."""
+    said = []
+    for output in filter(is_error, sweep.study.outputs):
+        sizes = np.abs(sweep.samples[output.name].to_numpy(dtype=float))
+        sizes = sizes[np.isfinite(sizes)]
+        if sizes.size:
+            middle, largest = (amount(output, float(size)) for size in (np.median(sizes), sizes.max()))
+            said.append(f"{output.label} {middle} and {largest}")
+    return "; ".join(said)
 
 
 def _state(sweep: Sweep) -> tuple[str, ...]:
@@ -67,7 +81,7 @@ def _unknown(sweep: Sweep) -> tuple[str, ...]:
 
 def _range(sweep: Sweep, parameter: Parameter) -> str:
     values = sweep.samples[parameter.name].to_numpy(dtype=float)
-    return f"{amount(parameter, float(values.min()))} … {amount(parameter, float(values.max()))}"
+    return ends(parameter, float(values.min()), float(values.max()))
 
 
 def status(found: Held) -> Status:
@@ -208,7 +222,7 @@ def _outputs(sweep: Sweep) -> Table:
         ),
         tuple(
             (output.label, variant, output.unit, *figures(variant, output))
-            for output in sweep.study.outputs
+            for output in sorted(sweep.study.outputs, key=lambda output: not is_error(output))
             for variant in sweep.variants
         ),
         rule_by=0,

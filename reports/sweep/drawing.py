@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from reports.drawing import STYLE, WIDTH, svg_text
 from reports.figures import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
 from reports.heat_maps import edges_of
+from reports.sweep.words import steady
 
 Array = NDArray[np.float64]
 
@@ -25,6 +26,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 0.98, 0.10, 0.30, 0.62
 _GAP, _ROW_GAP = 0.12, 0.16
 _HEIGHT = 1.02
 _LETTERS = 17.0  # an inch of a label of 7 points
+_STEADY_HALF = 0.05  # of a value that hardly varies, shown on either side of it
 _MANY = 200  # points that are drawn as an image
 _NEIGHBOURS, _MOST_GROUPS = 8, 12  # samples of a mean; means of a curve
 _BAR_COLOURS = (ROM_COLOUR, "#e69f00")
@@ -96,6 +98,10 @@ def _response(axis: Axes, column: Abscissa, row: Ordinate) -> None:
     axis.plot(*means(column.values, row.values), color=REFERENCE_COLOUR, linewidth=0.9)
     for limit in _limits(row):
         axis.axhline(limit, color=REFERENCE_COLOUR, linewidth=0.7, linestyle=(0, (4, 2)))
+    known = row.values[np.isfinite(row.values)]
+    if known.size and steady(float(known.min()), float(known.max())) and known.any():
+        half = _STEADY_HALF * float(np.abs(known).max())  # a line, not a magnified rounding error
+        axis.set_ylim(float(known.mean()) - half, float(known.mean()) + half)
     axis.yaxis.set_major_locator(MaxNLocator(4))
     if not column.logarithmic:
         axis.xaxis.set_major_locator(MaxNLocator(4))

@@ -29,12 +29,15 @@ class Split:
     holds, fails : (int, float)
         How many samples at that end all hold, and up to which value (SI); how many at the other all fail, and
         from which value on. The value is NaN for none.
+    single : (bool, bool)
+        Whether those that all hold, and that all fail, share one value.
     """
 
     parameter: Parameter
     below: bool
     holds: tuple[int, float]
     fails: tuple[int, float]
+    single: tuple[bool, bool] = (False, False)
 
 
 @dataclass(frozen=True)
@@ -122,6 +125,7 @@ def _split(found: Held, parameter: Parameter, below: bool) -> Split:
         below,
         (int(held_all.sum()), float(sign * np.max(sign * values[held_all], initial=-np.inf))),
         (int(failed_all.sum()), float(sign * np.min(sign * values[failed_all], initial=np.inf))),
+        (np.unique(values[held_all]).size == 1, np.unique(values[failed_all]).size == 1),
     )
 
 
@@ -144,7 +148,8 @@ def sentence(found: Held, parameters: Sequence[Parameter]) -> str:
 
 def _where(split: Split, count: int) -> str:
     parameter, (held_all, last), (failed_all, first) = split.parameter, split.holds, split.fails
-    to, beyond = (f"≤{SPACE}", f"≥{SPACE}") if split.below else (f"≥{SPACE}", f"≤{SPACE}")
+    signs = ("≤", "≥") if split.below else ("≥", "≤")
+    to, beyond = (f"{'=' if one else sign}{SPACE}" for one, sign in zip(split.single, signs, strict=True))
     if held_all + failed_all == count:
         return (
             f"in all with {parameter.label} {to}{amount(parameter, last)} and in none with "

@@ -8,6 +8,7 @@ import pandas as pd
 from reports.sweep.load import OK, Sweep, shown
 from reports.sweep.responses import logarithmic
 from reports.sweep.study_file import Output, Parameter
+from reports.sweep.words import is_error
 
 MOST_SAMPLES = 5000  # points that a browser still moves at ease
 
@@ -17,11 +18,12 @@ def page_data(sweep: Sweep) -> str:
     done = sweep.samples[sweep.samples["status"] == OK]
     done = done.iloc[:: -(-len(done) // MOST_SAMPLES) or 1]
     judged = [k for k, output in enumerate(sweep.study.outputs) if output.band]
+    errors = [k for k, output in enumerate(sweep.study.outputs) if is_error(output)]
     content = {
         "variants": sweep.variants,
         "variant": [sweep.variants.index(name) for name in done["variant"]],
         "sample": [int(number) for number in done["sample"]],
-        "start": judged[0] if judged else 0,
+        "start": next(iter((*judged, *errors)), 0),
         "parameters": [
             {**_column(p, done), "logarithmic": logarithmic(p, done)} for p in sweep.study.parameters
         ],

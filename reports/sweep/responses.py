@@ -13,7 +13,7 @@ from reports.sweep.drawing import Abscissa, Ordinate, Plane, planes, responses
 from reports.sweep.held import Held, sentence, varied
 from reports.sweep.load import Sweep, shown
 from reports.sweep.study_file import Output, Parameter
-from reports.sweep.words import amount, axis_label
+from reports.sweep.words import amount, axis_label, ends, is_error, steady
 from reports.tabular import comma_separated
 
 _ROWS = 5  # outputs of one figure
@@ -105,7 +105,8 @@ def _map(sweep: Sweep, number: int, found: Held) -> Figure | None:
     return Figure(
         key=f"held-{number}",
         caption=f"Where the band holds: {found.output.label} of each sample as colour, {words}. Circles are "
-        f"within the limit, crosses beyond it.{line} What to see: {said}",
+        f"within the limit, crosses beyond it.{line} What to see: the "
+        "border between both; whether it runs along an axis tells whether that parameter alone decides.",
         alt=f"Samples over {words}, coloured by the {found.output.label}. {said}",
         drawing=partial(planes, drawn, _size(found)),
         csv=_csv(sweep, found.samples, [found.output]),
@@ -128,13 +129,17 @@ def held_section(sweep: Sweep, bands: Sequence[Held]) -> Section:
         )
         return Section("held", title, (Paragraph(told),))
     several = len(sweep.study.parameters) > 2
-    told = "A band that holds in all samples or in none has no border, so no picture." + (
+    whole = [found for found in bands if found not in divided]
+    named = "; ".join(f"{found.output.label} ({found.variant})" for found in whole)
+    without = f"Without a border, held in all samples or in none, so not drawn: {named}." if whole else ""
+    told = without + (
         " Of more than two parameters the pairs are shown that the output depends on most, by total Sobol "
         "index where the design gives it, else by rank correlation; the others vary within a picture."
         if several
         else ""
     )
-    return Section("held", title, (Paragraph(told), *figures))
+    opening = (Paragraph(told.strip()),) if told else ()
+    return Section("held", title, (*opening, *figures))
 
 
 def _strongest(sweep: Sweep, output: Output, samples: pd.DataFrame) -> str:
@@ -143,21 +148,21 @@ def _strongest(sweep: Sweep, output: Output, samples: pd.DataFrame) -> str:
     values = values[np.isfinite(values)]
     if not values.size:
         return f"{output.label}: no value"
-    ends = f"{amount(output, float(values.min()))} … {amount(output, float(values.max()))}"
+    low, high = float(values.min()), float(values.max())
+    between = f"{output.label} {ends(output, low, high)}"
+    if steady(low, high):
+        return between
     correlation, parameter = max(
         ((_correlation(samples, p, output), p) for p in sweep.study.parameters), key=lambda pair: abs(pair[0])
     )
-    return (
-        f"{output.label} {ends}, follows {parameter.label} most (rank correlation "
-        f"{plus(fixed(correlation, 2))})"
-    )
+    return f"{between}, follows {parameter.label} most (rank correlation {plus(fixed(correlation, 2))})"
 
 
 def _curves(sweep: Sweep, variant: str, key: str) -> tuple[Figure, ...]:
     samples = sweep.done(variant)
     parameters = [p for p in sweep.study.parameters if varied(p, samples)]
     outputs = [o for o in sweep.study.outputs if np.isfinite(samples[o.name].to_numpy(dtype=float)).any()]
-    outputs.sort(key=lambda output: sweep.band(variant, output) is None)  # what is judged comes first
+    outputs.sort(key=lambda output: (sweep.band(variant, output) is None, not is_error(output)))
     figures = []
     for first in range(0, len(outputs), _ROWS):
         rows = outputs[first : first + _ROWS]

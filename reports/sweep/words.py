@@ -1,11 +1,14 @@
 """How parameters, outputs and their values are written on the page of a sweep."""
 
+import math
 import re
 
 from reports.numbers import ABSENT, SPACE, rounded, with_unit
 from reports.sweep.study_file import Output, Parameter
 
 _LEAST, _MOST = 1e-4, 1e6  # sizes that are written without a power of ten
+_LEAST_SPREAD = 1e-4  # of a value, that is worth digits
+_ERRORS = ("_error", "_bias", "_scatter", "_rms_difference", "_max_difference")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 DESIGNS = {
@@ -26,6 +29,27 @@ def amount(item: Parameter | Output, value: float | None, significant: int = 3) 
         digits, _, power = f"{shown:.{significant - 1}e}".partition("e")
         return with_unit(f"{digits.replace('-', '−')}{SPACE}·{SPACE}10{_raised(int(power))}", unit)
     return with_unit(rounded(shown, significant), unit)
+
+
+def steady(low: float, high: float) -> bool:
+    """Whether values differ too little to matter beside their size."""
+    return high - low < _LEAST_SPREAD * max(abs(low), abs(high)) or high == low
+
+
+def ends(item: Parameter | Output, low: float, high: float) -> str:
+    """E.g. "12.04 kPa … 12.09 kPa", with as many digits as tell the ends apart; one value of steady ones."""
+    if high == low:
+        return f"{amount(item, low)} (does not vary)"
+    if steady(low, high):
+        return f"{amount(item, low)} (varies by less than {100 * _LEAST_SPREAD:g}{SPACE}%)"
+    size = max(abs(low), abs(high)) / (high - low)
+    significant = max(3, math.ceil(math.log10(size)) + 1)
+    return f"{amount(item, low, significant)} … {amount(item, high, significant)}"
+
+
+def is_error(output: Output) -> bool:
+    """Whether an output tells how far a sample is from what judges it."""
+    return output.name.endswith(_ERRORS)
 
 
 def unit_words(item: Parameter | Output) -> str:

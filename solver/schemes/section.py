@@ -17,7 +17,6 @@ that the rows sum up to the section. What the mean operator leaves out shrinks a
 """
 
 import numpy as np
-from numba import njit
 
 from solver.schemes.convergence import remaining
 from solver.schemes.layout import NOT_CONVERGED, NOT_FINITE, OK, PRESSURE_INLET, Array, Stepping
@@ -33,7 +32,6 @@ from solver.schemes.section_ends import (
 )
 from solver.schemes.section_layout import Fields, Parameters, Workspace
 from solver.schemes.section_rows import (
-    FAST,
     areas_between,
     copied,
     cross_flows,
@@ -47,11 +45,12 @@ from solver.schemes.section_rows import (
     wall_areas,
     weighted,
 )
+from solver.schemes.vectorisation import inlined_kernel, kernel, summing_kernel
 
 LOWER, MIDDLE, UPPER = 0, 1, 2
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _mass_balance(s: Stepping, p: Parameters, ws: Workspace) -> None:
     """Mass balance of every section at the iterate, summed over φ."""
     ratio = s.time_step / p.dx
@@ -60,7 +59,7 @@ def _mass_balance(s: Stepping, p: Parameters, ws: Workspace) -> None:
         ws.mass[i] = ws.old_area_sum[i] - ws.area_sum[i] - divergence
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _advection_matrix(s: Stepping, p: Parameters, ws: Workspace, outlet_slope: float) -> None:
     """Advection and friction of all rows of a section, by their mean: tridiagonal on faces."""
     lower, middle, upper = ws.matrix[LOWER], ws.matrix[MIDDLE], ws.matrix[UPPER]
@@ -78,7 +77,7 @@ def _advection_matrix(s: Stepping, p: Parameters, ws: Workspace, outlet_slope: f
     middle[last] = 1.0 - s.theta * damping[last] + 2.0 * ratio * outlet_slope + lower[last]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _section_matrix(s: Stepping, p: Parameters, ws: Workspace, gap: float, answer: float) -> None:
     """Section's flow with the pressure eliminated: δP = (mass − c ∂δq)/Σ(dA/dP); into matrix and ``total``.
 
@@ -110,7 +109,7 @@ def _section_matrix(s: Stepping, p: Parameters, ws: Workspace, gap: float, answe
         total[0] -= k * mass[0] / slopes[0]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _thomas(matrix: Array, right: Array, solution: Array) -> None:
     """Solve a tridiagonal system; the middle is overwritten."""
     lower, middle, upper = matrix[LOWER], matrix[MIDDLE], matrix[UPPER]
@@ -125,7 +124,7 @@ def _thomas(matrix: Array, right: Array, solution: Array) -> None:
         solution[f] = (solution[f] - upper[f] * solution[f + 1]) / middle[f]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _section_change(s: Stepping, p: Parameters, ws: Workspace, gap: float, answer: float) -> float:
     """δP everywhere, taken by the iterate, and its pull on the rows, into ``total``; Σ of δP squared."""
     c, n_x = s.theta * s.time_step / p.dx, ws.mass.size
@@ -143,7 +142,7 @@ def _section_change(s: Stepping, p: Parameters, ws: Workspace, gap: float, answe
     return squares
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _drive(s: Stepping, p: Parameters, old: Array, new: Array, drive: Array) -> None:
     """Δt/(ρΔx) times the θ-weighted pressure's rise over each face; half cells at the ends."""
     scale, last = s.time_step / (p.density * p.dx), drive.size - 1
@@ -154,7 +153,7 @@ def _drive(s: Stepping, p: Parameters, old: Array, new: Array, drive: Array) -> 
     drive[last] *= 2.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _evaluate(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
     """Everything that the balances need at the iterate; status, section and row."""
     n_x = fields.area.shape[0]
@@ -204,7 +203,7 @@ def _evaluate(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tupl
     return OK, 0, 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _sweep(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, offset: float
 ) -> tuple[int, int, int, float]:
@@ -247,7 +246,7 @@ def _sweep(
     return OK, 0, 0, squares
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def _extrapolate(new: Array, older: Array, oldest: Array, guess: Array, order: int) -> None:
     """First iterate: the old state, or its extrapolation in time of order 1 or 2; remember the past."""
     a = (1.0, 2.0, 3.0)[order]
@@ -260,7 +259,7 @@ def _extrapolate(new: Array, older: Array, oldest: Array, guess: Array, order: i
         past[k] = flat[k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def step(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, offset: float, order: int
 ) -> tuple[int, int, int, int]:
@@ -315,7 +314,7 @@ def step(
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     """Take the iterate as the new state; ΣA' from the fluxes, so that mass is kept to round-off.
 
@@ -338,7 +337,7 @@ def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     update_reservoir(p, fields, 0.5 * p.dphi * float(ws.new_flow_sum[n_x]))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def advance(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Array, outlet_offsets: Array
 ) -> tuple[int, int, int, int, int]:

@@ -5,7 +5,6 @@ pressure a section nothing else says how what enters is spread over the rows.
 """
 
 import numpy as np
-from numba import njit
 
 from solver.schemes.layout import (
     FLOW_INLET,
@@ -19,11 +18,12 @@ from solver.schemes.layout import (
 )
 from solver.schemes.section_layout import Fields, Parameters, Workspace
 from solver.schemes.section_rows import wall_row, wall_sum
+from solver.schemes.vectorisation import inlined_kernel
 
 INLET, OUTLET = 0, 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def end_walls(p: Parameters, pressure: Array, end_area: Array) -> tuple[int, int]:
     """Find A at the outlet, and at a pressure inlet, from end pressures; status and section."""
     n_x = p.table.shape[0]
@@ -34,7 +34,7 @@ def end_walls(p: Parameters, pressure: Array, end_area: Array) -> tuple[int, int
     return wall_row(p.table[0], start, step, pressure[0], end_area[INLET]), 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def end_face_areas(p: Parameters, ws: Workspace, theta: float) -> tuple[int, int]:
     """θ-weighted A of the two end faces; status and section."""
     status, i = end_walls(p, ws.iterate_pressure, ws.end_area)
@@ -53,7 +53,7 @@ def end_face_areas(p: Parameters, ws: Workspace, theta: float) -> tuple[int, int
     return OK, 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def inlet_balance(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, drive: float
 ) -> None:
@@ -92,7 +92,7 @@ def inlet_balance(
     ws.total[0] = balance
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def outlet_balance(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, drive: float) -> float:
     """Momentum balance of the outlet's half cell; returns θ times the mean of ∂(αQ²/A)/∂Q there."""
     n_x, n = ws.flux.shape
@@ -115,7 +115,7 @@ def outlet_balance(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, dr
     return float(s.theta * slopes / n)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def outlet_law(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, offset: float
 ) -> tuple[float, float]:
@@ -139,7 +139,7 @@ def outlet_law(
     return offset, sector * p.resistance
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def _non_reflecting_law(p: Parameters, ws: Workspace, fields: Fields) -> tuple[float, float]:
     """No wave enters: q' − q − Δt S q = λ₊ (S' − S) (2.2.41) of the section's sums."""
     n_x, n = ws.flux.shape
@@ -157,7 +157,7 @@ def _non_reflecting_law(p: Parameters, ws: Workspace, fields: Fields) -> tuple[f
     return fields.pressure[n_x + 1] - b * (old + damped), b
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def spread(change: float, base: Array, shares: Array) -> None:
     """Spread a section's change over its rows: what they have, and the rest by their shares, in place."""
     total = 0.0
@@ -167,7 +167,7 @@ def spread(change: float, base: Array, shares: Array) -> None:
         base[j] += (change - total) * shares[j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def share_outlet(ws: Workspace, section_flow: float) -> bool:
     """Where blood enters through the outlet: δQ that gives all rows one velocity; whether it does."""
     if section_flow >= 0.0:
@@ -181,7 +181,7 @@ def share_outlet(ws: Workspace, section_flow: float) -> bool:
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inlined_kernel
 def update_reservoir(p: Parameters, fields: Fields, section_flow: float) -> None:
     """Pressure of the Windkessel's capacitor after the step: P_c' = P' − R₁ q'."""
     if p.outlet_kind == WINDKESSEL:

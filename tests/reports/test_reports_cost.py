@@ -33,12 +33,12 @@ RECORD = {
 def comparison(tmp_path):
     """Write a comparison whose first variant has facts of its 3D run."""
 
-    def loaded(wall_times=None, **facts):
+    def loaded(rom=None, **facts):
         write(tmp_path, Setup())
         path = tmp_path / "provenance.json"
         content = json.loads(path.read_text(encoding="utf-8"))
         content["variants"]["none"]["reference"] |= facts
-        content["wall_times_s"] = wall_times or {}
+        content["variants"]["none"]["rom"] |= rom or {}
         path.write_text(json.dumps(content), encoding="utf-8")
         return load(tmp_path)
 
@@ -51,11 +51,13 @@ def test_without_log_and_records_there_is_nothing_to_tell(comparison):
 
 
 def test_the_cost_of_both_models(comparison):
-    table = cost.cost_table(comparison({"none: reduced model": 0.5}, cost=COST))
+    read = comparison({"simulation_wall_time_s": 0.5}, cost=COST)
+    table = cost.cost_table(read)
+    per_cycle = (949.057 / (1.794 / read.period)) / (0.5 / 3)
     assert [tuple(text.replace("\u00a0", " ") for text in row) for row in table.rows] == [
         (
             "none", "15.8 min", "1.794 s", "450 (2 retried)", "2211", "37572", "normally (FEBio 4.11.0)",
-            "0.500 s", "—", "1898",
+            "0.500 s", "3", "2391", f"{per_cycle:.0f}",
         )
     ]  # fmt: skip
 
@@ -63,7 +65,19 @@ def test_the_cost_of_both_models(comparison):
 def test_what_the_log_does_not_tell_is_left_out(comparison):
     unknown = dict.fromkeys(("wall_time_s", "simulated_s", "equations", "febio_version"))
     (row,) = cost.cost_table(comparison(cost=COST | unknown)).rows
-    assert row == ("none", "—", "—", "450 (2 retried)", "2211", "—", "normally (FEBio)", "—", "—", "—")
+    assert row == (
+        "none",
+        "—",
+        "—",
+        "450 (2 retried)",
+        "2211",
+        "—",
+        "normally (FEBio)",
+        "—",
+        "3",
+        "2391",
+        "—",
+    )
 
 
 @pytest.mark.parametrize(
@@ -77,6 +91,13 @@ def test_long_times_are_in_long_units(comparison, seconds, text):
 def test_data_records(comparison):
     (row,) = cost.records_table(comparison(data_records=[RECORD])).rows
     assert row == ("none", "axis.txt", "x, nfvx", "41", "82", "3.7e-08")
+
+
+def test_the_cost_of_2d_is_told_once(comparison):
+    assert (
+        "simulation_wall_time_s"
+        not in comparison({"simulation_wall_time_s": 0.5}).provenance.variants["none"].rom.facts()
+    )
 
 
 def test_neither_is_listed_among_the_settings(comparison):

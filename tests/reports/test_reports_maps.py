@@ -133,6 +133,34 @@ def test_dominance_tables_hold_the_metrics(finished: tuple[Path, Rows]) -> None:
     assert f"not everywhere small beside v_x: the largest ratio, |v_r|/v_x = {worst:.3f}" in sentence.text
 
 
+@pytest.mark.parametrize(("beside", "told"), [(True, True), (False, False)])
+def test_where_the_2d_model_has_its_largest_radial_velocity(
+    tmp_path: Path, small: synthetic.Setup, beside: bool, told: bool
+) -> None:
+    """It has a place of its own, and is explained where the wall jumps there."""
+    rows = synthetic.write(tmp_path, small)
+    with xr.open_dataset(tmp_path / "comparison.nc", decode_times=False) as data:
+        inside = data["calcified"].sel(variant="local").values
+    j = int(np.flatnonzero(inside.any(axis=0))[0])
+    edge = int(np.flatnonzero(inside[:, j])[0])
+    i = edge + 1 if beside else 1
+    three = next(
+        row for row in rows if row["quantity"] == "axial_dominance_radial" and row["statistic"] == "largest"
+    )
+    own = {**three, "variant": "local", "reference": None, "rom": 1.217, "i": i, "j": j + 1}
+    (tmp_path / "metrics.json").write_text(json.dumps([*rows, own]))
+    comparison = load(tmp_path)
+    section = assumptions.dominance_section(comparison)
+    assert isinstance(section.blocks[0], Paragraph)
+    text = section.blocks[0].text.replace("\u00a0", " ")
+    assert f"largest in variant local at i = {i}, j = {j + 1}, |v_r|/v_x = 1.217" in text
+    assert ("jumps from one cell to the next" in text) == told
+    line = next(row for row in _tables(section)["largest-dominance"].rows if row[0] == "local")
+    assert [line[3], line[4].replace("\u00a0", " ")] == ["1.217", f"i = {i}, j = {j + 1}"]
+    figures = _tables(assumptions.checks_section(comparison))["assumption-figures"]
+    assert next(row for row in figures.rows if row[0] == "no radial velocity")[-1] == "1.217"
+
+
 def test_assumptions_are_those_of_both_models(finished: tuple[Path, Rows]) -> None:
     directory, _ = finished
     table = _tables(assumptions.checks_section(load(directory)))["assumption-figures"]

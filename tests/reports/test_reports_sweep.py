@@ -16,13 +16,14 @@ from reports import ReportError
 from reports.__main__ import main
 from reports.blocks import Table
 from reports.sweep import write_sweep_page
+from reports.sweep.account import headline
 from reports.sweep.build import sweep_report
 from reports.sweep.drawing import means
 from reports.sweep.held import Held, all_held, sentence, splits
 from reports.sweep.load import load_sweep
 from reports.sweep.page_data import page_data
 from reports.sweep.study_file import Band, Output, Parameter
-from reports.sweep.words import amount, axis_label
+from reports.sweep.words import amount, axis_label, ends
 
 PARAMETER = Parameter(name="p", label="stiffness", unit="MPa", display_factor=1e-6, kind="list")
 OTHER = Parameter(name="o", label="angle", unit="deg", display_factor=1.0, kind="list")
@@ -61,7 +62,7 @@ def test_a_band_that_holds_at_high_values_is_said_the_other_way_around() -> None
 def test_a_parameter_that_decides_in_part_says_for_how_many() -> None:
     found = _held([1e6, 2e6, 3e6, 3e6, 4e6], [5, 5, 1, 2, 5], [0.0, 0.0, 0.01, 0.03, 0.05])
     said = _plain(sentence(found, [PARAMETER]))
-    assert "in all 2 with stiffness ≤ 2.00 MPa and in none of the 1 with stiffness ≥ 4.00 MPa" in said
+    assert "in all 2 with stiffness ≤ 2.00 MPa and in none of the 1 with stiffness = 4.00 MPa" in said
     assert said.endswith("elsewhere it depends on the others.")
 
 
@@ -283,3 +284,32 @@ def test_amounts_have_their_unit_and_powers_of_ten() -> None:
     assert amount(PARAMETER, None) == "—"
     assert _plain(amount(OTHER, -3e-7)) == "−3.00 · 10⁻⁷ deg"
     assert axis_label(resistance) == "R (Pa s/m³)"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "text"),
+    [
+        (12043.9, 12043.9, "12.0 kPa (does not vary)"),
+        (12043.939, 12043.9435, "12.0 kPa (varies by less than 0.01 %)"),
+        (12043.0, 12089.0, "12.04 kPa … 12.09 kPa"),
+        (100.0, 12000.0, "0.100 kPa … 12.0 kPa"),
+        (0.0, 0.0, "0 kPa (does not vary)"),
+    ],
+)
+def test_a_range_has_the_digits_that_it_needs(low: float, high: float, text: str) -> None:
+    output = Output(name="pressure", label="pressure", unit="kPa", display_factor=1e-3)
+    assert _plain(ends(output, low, high)) == text
+
+
+def test_errors_lead_where_no_band_judges_them(tmp_path: Path) -> None:
+    synthetic.write(tmp_path, synthetic.Setup())
+    study = json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))
+    for output in study["outputs"]:
+        output["band"] = None
+    (tmp_path / "study.json").write_text(json.dumps(study), encoding="utf-8")
+    sweep = load_sweep(tmp_path)
+    said = _plain(headline(sweep, ()))
+    assert "no band judges them. Median and largest error: RMS error of the lumen radius" in said
+    data = json.loads(page_data(sweep))
+    assert data["outputs"][data["start"]]["label"] == "RMS error of the lumen radius"
+    assert _table(sweep, "outputs").rows[0][0] == "RMS error of the lumen radius"

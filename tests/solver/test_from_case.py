@@ -5,6 +5,7 @@ import pytest
 from thesis_artery import HEALTHY, REFERENCE_DATA, thesis_waveform
 
 from cases.case_file import load_case_file
+from solver.errors import ModelError
 from solver.from_case import calcified_cells, default_output_times, model_of
 
 
@@ -71,6 +72,12 @@ def test_several_patches(variant_of):
     wanted[ring & (patch < 2 * HEALTHY)] = 5 * HEALTHY
     np.testing.assert_allclose(model_of(case).stiffness, wanted, rtol=1e-12)
     assert np.all(calcified_cells(case))
+
+
+def test_a_patch_between_cell_centres_is_refused(variant_of):
+    case = variant_of("patch", ("[135 deg, 225 deg]", "[158 deg, 202 deg]"))
+    with pytest.raises(ModelError, match=r"the local one from x = 0.005 m holds no centre .* 12 x 8"):
+        model_of(case)
 
 
 def test_one_of_several_patches_is_that_patch(variant_of):

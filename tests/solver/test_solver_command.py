@@ -41,6 +41,11 @@ def run(monkeypatch, capsys):
     return with_arguments
 
 
+def stored_change(path):
+    with xr.open_dataset(path) as dataset:
+        return dataset.attrs["cycle_change"]
+
+
 @pytest.fixture
 def result(run, case_file):
     output = case_file.with_name("run.nc")
@@ -54,6 +59,8 @@ def result(run, case_file):
         "  mass defect",
         "  continuity residual",
         "  energy defect not evaluated: states too far apart",
+        f"  change over the last cycle {stored_change(output):.3g} (relative)",
+        f"  {command.USUAL}",
     ]
     with xr.open_dataset(output) as dataset:
         yield dataset.load()
@@ -82,6 +89,39 @@ def test_dimensions_units_and_words(result):
     np.testing.assert_allclose(result["time"], np.linspace(0, 0.4, 21), atol=1e-12)
     np.testing.assert_allclose(result["x"], (np.arange(12) + 0.5) * 15e-3 / 12)
     np.testing.assert_allclose(result["phi"], (np.arange(8) + 0.5) * np.pi / 4)
+
+
+def test_change_over_the_last_cycle_is_told_where_both_its_ends_are_saved(result, run, case_file):
+    begin, end = result.sel(time=[0.2, 0.4], method="nearest").transpose("time", ...)["pressure"]
+    flow = result["section_flow_rate"].sel(time=[0.2, 0.4], method="nearest")
+    expected = max(
+        float(np.abs(end - begin).max() / np.abs(begin).max()),
+        float(np.abs(flow[1] - flow[0]).max() / np.abs(flow[0]).max()),
+    )
+    assert result.attrs["cycle_change"] == pytest.approx(expected, rel=1e-12)
+    case_file.write_text(case_file.read_text().replace("output_interval: 20 ms", "output_interval: 30 ms"))
+    output = case_file.with_name("sparse.nc")
+    status, text, errors = run(case_file, "--variant", "healthy", "--output", output)
+    assert (status, errors) == (0, "")
+    assert "change over the last cycle not evaluated: no state was saved at its start" in text
+    with xr.open_dataset(output) as sparse:
+        assert "cycle_change" not in sparse.attrs
+
+
+def test_a_run_that_drifts_says_so(run, case_file):
+    windkessel = (
+        "outlet: {kind: windkessel, proximal_resistance: 1e8 Pa s/m^3, distal_resistance: 5e9 Pa s/m^3, "
+        "compliance: 1e-10 m^3/Pa}"
+    )
+    resistance = "outlet: {kind: resistance, resistance: 1.358e9 Pa s/m^3, offset: 9330 Pa}"
+    case_file.write_text(case_file.read_text().replace(resistance, windkessel))
+    status, text, errors = run(case_file, "--variant", "healthy", "--output", case_file.with_name("run.nc"))
+    assert status == 0
+    assert errors.startswith("warning: the reduced model is not periodic yet: it changes by ")
+    assert "(raise solver.cycles)" in errors
+    with xr.open_dataset(case_file.with_name("run.nc")) as stored:
+        assert stored.attrs["cycle_change"] > 1e-4
+        assert f"{stored.attrs['cycle_change']:.3g} (relative)" in text
 
 
 def test_where_it_comes_from(result, case_file):

@@ -89,7 +89,7 @@ def test_a_variant_without_a_reference_is_refused(tmp_path, capsys):
     content = small_case("local")
     del content["reference"], content["variants"]["local"]["reference"]
     assert ablation.main([str(written(content, tmp_path)), "--output", str(tmp_path / "x")]) == 2
-    assert "states no reference" in capsys.readouterr().err
+    assert "small.yaml: reference of variant 'local': missing" in capsys.readouterr().err
     assert not (tmp_path / "x").exists()
 
 

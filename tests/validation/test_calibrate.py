@@ -243,7 +243,7 @@ def test_a_case_that_cannot_be_written_is_refused_at_once(
     path = calibration_of(OUTLET, PRESSURES)
     said = {
         "itself": "is the case file itself; choose another --case",
-        "elsewhere": "would be no case file in this folder:",
+        "elsewhere": "inlet.csv: no such file; looked for in",
         "nowhere": "cannot be written: No such file or directory",
     }[where]
     target = tmp_path / {"itself": "small.yaml", "elsewhere": "new.yaml", "nowhere": "none/new.yaml"}[where]
@@ -257,9 +257,23 @@ def test_a_case_that_cannot_be_written_is_refused_at_once(
         path.write_text(path.read_text().replace(str(tmp_path / "small.yaml"), str(deep / "small.yaml")))
     monkeypatch.setattr(calibrate, "calibrated", lambda *_: pytest.fail("it was computed"))
     assert calibrate.main([str(path), "--output", str(tmp_path / "out"), "--case", str(target)]) == 2
-    assert said in capsys.readouterr().err
+    message = capsys.readouterr().err
+    assert said in message
+    assert message.count("\n") == 1
+    assert ("allowed as --case: " in message) == (where == "elsewhere")
     assert not (tmp_path / "out").exists()
     assert not [each for each in tmp_path.iterdir() if each.name.startswith(".")]
+
+
+def test_numbers_are_kept_where_the_case_cannot_be_written_any_more(calibration_of, tmp_path, monkeypatch):
+    def gone(path, *_):
+        raise ValidationError(f"{path}: cannot be written")
+
+    monkeypatch.setattr(calibrate, "write_case", gone)
+    path = calibration_of(OUTLET, PRESSURES)
+    options = ["--output", str(tmp_path / "out"), "--case", str(tmp_path / "new.yaml")]
+    assert calibrate.main([str(path), *options]) == 2
+    assert json.loads((tmp_path / "out/calibration.json").read_text())["parameters"]
 
 
 def test_an_interrupt_leaves_nothing(calibration_of, tmp_path, capsys, monkeypatch):

@@ -120,7 +120,17 @@ class TestWrongInput:
     def test_variant_without_a_reference(self, refused):
         case = small_case()
         case["variants"]["local"]["reference"] = None
-        assert "reference" in refused(case)
+        line = refused(case)
+        assert line.startswith("small.yaml: reference of variant 'local': missing")
+        assert "allowed: kind febio (plot_file, and generate" in line
+        assert line.endswith("small.yaml --variant local --output run.nc")
+
+    def test_case_of_one_variant_without_a_reference(self, refused):
+        case = small_case("none")
+        del case["variants"], case["reference"]
+        case["compare"].pop("bands")
+        line = refused(case)
+        assert line.startswith("small.yaml: reference: missing, there is nothing to compare with; allowed: ")
 
     def test_nothing_is_left_of_folders_made_for_the_result(self, tmp_path, quick, capsys):
         (tmp_path / "text.xplt").write_text("no plot file")

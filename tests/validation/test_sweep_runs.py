@@ -12,6 +12,7 @@ from small_case import small_case, written
 from small_sweep import GRID, records, small_study, study_file, swept
 
 from cases.case_file import load_case_file
+from febio_io.errors import FebioError
 from reports.errors import ReportError
 from reports.sweep.load import load_sweep
 from solver.case_run import run_case
@@ -75,6 +76,12 @@ def test_outputs_are_those_of_the_ordinary_run(whole):
     assert row["systolic_pressure_inlet"] == pytest.approx(pressure[:, 0].max(), rel=1e-9)
     assert row["diastolic_pressure_outlet"] == pytest.approx(pressure[:, -1].min(), rel=1e-9)
     assert row["mean_pressure_inlet"] == pytest.approx(np.trapezoid(pressure[:, 0], dx=0.01), rel=1e-9)
+    ends = last.isel(time=[0, -1])
+    drifts = [
+        float(np.abs(v[1] - v[0]).max() / np.abs(v[0]).max())
+        for v in (ends["pressure"], ends["section_flow_rate"])
+    ]
+    assert row["cycle_change"] == pytest.approx(max(drifts), rel=1e-6)
     flow = last["section_flow_rate"].to_numpy()[:, 6]
     assert row["flow_amplitude"] == pytest.approx(np.ptp(flow), rel=1e-9)
     section = int(np.argmin(np.abs(last["x"].to_numpy() - 7.5e-3)))
@@ -187,6 +194,30 @@ def test_another_study_is_refused_unless_fresh(whole, tmp_path, capsys):
     assert main([*command, "--fresh"]) == 0
     assert "trial: 1 samples; page: " in capsys.readouterr().out
     assert len(records(tmp_path / "out")) == 1
+
+
+def test_a_3d_run_that_is_not_there_is_said_before_another_study_is_refused_or_removed(whole, tmp_path):
+    _, _, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    case = small_case("local")
+    case["variants"]["local"]["reference"] = {"plot_file": "absent.xplt", "generate": {}}
+    study = small_study(tmp_path, case=case, parameters=ONE, against="reference")
+    for fresh in (False, True):
+        with pytest.raises(ValidationError, match=r"absent\.xplt: not there yet; to make it:"):
+            swept(study, tmp_path / "out", fresh=fresh)
+    assert len(records(tmp_path / "out")) == 6
+
+
+def test_a_3d_run_that_cannot_be_read_does_not_remove_the_earlier_sweep(whole, tmp_path):
+    _, _, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    case = small_case("local")
+    case["variants"]["local"]["reference"] = {"plot_file": "text.xplt"}
+    (tmp_path / "text.xplt").write_text("time,pressure", encoding="utf-8")
+    study = small_study(tmp_path, case=case, parameters=ONE, against="reference")
+    with pytest.raises(FebioError, match=r"text\.xplt: not an FEBio plot file"):
+        swept(study, tmp_path / "out", fresh=True)
+    assert len(records(tmp_path / "out")) == 6
 
 
 def test_words_do_not_make_another_study(whole, tmp_path, monkeypatch):

@@ -242,3 +242,10 @@ def test_the_grid_of_the_helper_has_a_sample_that_is_refused(tmp_path):
     refused = [sample.number for sample in samples.block(range(len(samples))) if sample.case is None]
     assert refused == [2, 5]
     assert np.prod([len(values) for values in GRID.values()]) == len(samples)
+
+
+@pytest.mark.parametrize("name", ["thesis.yaml", "calibration_of_outlet.yaml"])
+def test_another_kind_of_file_is_no_study(name):
+    path = Path(__file__).parents[2] / "cases" / name
+    with pytest.raises(CaseFileError, match="; allowed: the study of a sweep; to run it: python -m valid"):
+        load_study(path)

@@ -12,9 +12,9 @@ from solver.batch import run_batch
 from solver.model import Model
 from solver.result import CellHistory, cell_dataset
 from validation.ladder import coupled_model
-from validation.reduced_model import run_times
+from validation.reduced_model import change_of, run_times
 from validation.sweep.judging import Standard, instants_of, judged_values
-from validation.sweep.outputs import OWN, Output
+from validation.sweep.outputs import CYCLE_CHANGE, OWN, Output
 from validation.sweep.samples import Sample
 
 OK, FAILED = "ok", "failed"
@@ -62,7 +62,8 @@ def _record_of(sample: Sample, plan: Plan) -> Record:
     instants = instants_of(standard, sample.case)
 
     def last_cycle(model: Model, cells: CellHistory) -> xr.Dataset:
-        return cell_dataset(model, cells).sel(time=instants)
+        whole = cell_dataset(model, cells)
+        return whole.sel(time=instants).assign_attrs({CYCLE_CHANGE: change_of(cases[0], whole)})
 
     outcomes = run_batch(cases, run_times(sample.case, instants), last_cycle, THREADS)
     seconds = sum(outcome.cpu_s for outcome in outcomes)

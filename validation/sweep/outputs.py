@@ -18,6 +18,8 @@ from validation.sweep.judging import Against, judged_bands
 Floats = NDArray[np.float64]
 Measure = Callable[[Case, xr.Dataset], float]
 
+CYCLE_CHANGE = "cycle_change"  # output, and attribute of a last cycle that tells it
+
 
 @dataclass(frozen=True)
 class Output:
@@ -99,6 +101,10 @@ def _flow_amplitude(_case: Case, last: xr.Dataset) -> float:
     return float(middle.max() - middle.min())
 
 
+def _cycle_change(_case: Case, last: xr.Dataset) -> float:
+    return float(last.attrs[CYCLE_CHANGE])
+
+
 def _like(name: str, label: str, field: Field) -> Output:
     return Output(name, label, field.unit, field.display_unit, field.display_factor)
 
@@ -125,13 +131,18 @@ def _own_outputs() -> dict[str, tuple[Output, Measure]]:
         (_percent("radius_change_calcified", f"{change}, calcified row"), _calcified_radius_change),
         (
             _like(
-                "flow_amplitude", "largest less least flow rate at mid-length", FIELDS["section_flow_rate"]
+                "flow_amplitude",
+                "amplitude of the flow rate (largest − least) at mid-length",
+                FIELDS["section_flow_rate"],
             ),
             _flow_amplitude,
         ),
     ]
     kept = ("largest_radius", "least_radius", "largest_pressure_difference", "largest_radius_variation")
     found += [(_like(name, FIELDS[name].label, FIELDS[name]), _of_cycle(name)) for name in kept]
+    found.append(
+        (_percent(CYCLE_CHANGE, "change of pressure and flow rate over the last cycle"), _cycle_change)
+    )
     return {output.name: (output, measure) for output, measure in found}
 
 

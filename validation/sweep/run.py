@@ -1,7 +1,7 @@
 """One sweep from a study to its folder: what is recorded already stays, what is missing is run."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from validation.cache import open_cache
 from validation.errors import ValidationError
+from validation.generated import check_computed
 from validation.sweep.account import account_of, digest_of, write_account, write_study
 from validation.sweep.chunk import Plan
 from validation.sweep.cluster import connected
@@ -25,7 +26,7 @@ from validation.sweep.folder import (
     schema_of,
     write_part,
 )
-from validation.sweep.judging import Watcher, standards
+from validation.sweep.judging import Standard, Watcher, standards
 from validation.sweep.samples import Samples, samples_of_study
 from validation.sweep.sensitivity import sensitivity
 from validation.sweep.stream import computed
@@ -83,12 +84,16 @@ def run_sweep(study: Study, where: Where, tell: Tell) -> Counts:
     samples = samples_of_study(study)
     size = chunk_size(study, len(samples))
     chunks = [range(first, min(first + size, len(samples))) for first in range(0, len(samples), size)]
+    if study.against == "reference":
+        check_computed(study.base, study.cases)
     digest = digest_of(study, chunks)
     schema = schema_of(
         [parameter.name for parameter in study.parameters], [output.name for output in study.outputs]
     )
     with claimed(where.folder):
+        judges = None
         if where.fresh:
+            judges = _standards(study, tell)  # a reference that cannot be read leaves the earlier sweep
             cleared(where.folder)
         _refuse_another(where.folder, digest)
         present = parts_present(where.folder, chunks, schema)
@@ -100,7 +105,8 @@ def run_sweep(study: Study, where: Where, tell: Tell) -> Counts:
         keep = _Keeper(where.folder, schema, account, counts, time.monotonic())
         try:
             if missing:
-                _run_missing(samples, chunks, missing, where, keep, tell)
+                plan = _plan(study, judges or _standards(study, tell))
+                _run_missing(samples, chunks, missing, where, keep, plan, tell)
         except BaseException:
             write_account(where.folder, account, "interrupted", keep.counts)
             raise
@@ -141,20 +147,26 @@ class _Keeper:
             self.written = time.monotonic()
 
 
+def _standards(study: Study, tell: Tell) -> dict[str, Standard]:
+    bands = [band for output in study.outputs for band in output.bands]
+    watcher = Watcher(lambda _done, _total: None, tell)
+    return standards(study.cases, study.against, bands, open_cache(), watcher)
+
+
+def _plan(study: Study, judges: Mapping[str, Standard]) -> Plan:
+    return Plan(tuple(parameter.name for parameter in study.parameters), study.outputs, judges)
+
+
 def _run_missing(
     samples: Samples,
     chunks: Sequence[range],
     missing: Sequence[int],
     where: Where,
     keeper: _Keeper,
+    plan: Plan,
     tell: Tell,
 ) -> None:
-    study = samples.study
-    bands = [band for output in study.outputs for band in output.bands]
     with _progress(len(samples), keeper) as update:
-        watcher = Watcher(lambda _done, _total: None, tell)
-        judges = standards(study.cases, study.against, bands, open_cache(), watcher)
-        plan = Plan(tuple(parameter.name for parameter in study.parameters), study.outputs, judges)
         blocks = ((number, samples.block(chunks[number])) for number in missing)
         with connected(where.scheduler, where.workers, tell) as client:
             for number, records in computed(client, blocks, plan):

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from cases.case_file import check_section, load_case_file, part_of, unknown_keys
 from cases.errors import CaseFileError, Problem
+from cases.file_kinds import require_kind
 from cases.numeric_keys import NumericKey, numeric_keys
 from cases.schema import Case
 from cases.section import Section
@@ -126,6 +127,7 @@ def load_study(path: Path) -> Study:
     """
     text = read_text(path)
     root = parse_yaml(text, path)
+    require_kind(root, path, "study")
     problems = unknown_keys(root, STUDY_KEYS)
     kept = part_of(root, tuple(_Stated.model_fields))
     stated = check_section(_Stated, _spelt_out(kept), Context(path.resolve().parent, ()), problems)
