@@ -158,7 +158,6 @@ def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], Non
     start = np.array([parameter.start for parameter in calibration.parameters])
     begin = (start - runs.low) / runs.width
     if not np.all(np.isfinite(runs.residuals(begin))):
-        reason = runs.error(begin)
         raise ValidationError(
             f"{calibration.path}: the run from which the search begins: {runs.error(begin)}"
         )
