@@ -18,6 +18,7 @@ from validation.calibration_targets import Observed
 from validation.errors import ValidationError
 
 DIFFERENCE = 1e-3  # of a parameter's range: half the interval of the central differences
+SMALL_CHANGE = 1e-2  # of a value, for a difference that limits decades apart do not widen
 MOST_EVALUATIONS = 60
 TOLERANCE = 1e-8
 AT_LIMIT = 1e-5  # share of its range, and of its value, within which a parameter lies on its limit
@@ -102,10 +103,14 @@ class _Runs:
         return np.asarray((attained - self.wanted.values) / self.wanted.scales)
 
     def jacobian(self, point: Floats) -> Floats:
-        """Differences over ± a thousandth of each range, one-sided at its ends and where a run fails."""
+        """Differences over ± a thousandth of each range, a hundredth of the value where that is less.
+
+        One-sided at the ends of a range and where a run fails.
+        """
+        near = SMALL_CHANGE * np.abs(self.values(point)) / self.width
+        steps = np.where(near > 0, np.minimum(DIFFERENCE, near), DIFFERENCE)
         below, above = (
-            [np.clip(point + sign * step, 0.0, 1.0) for step in DIFFERENCE * np.eye(point.size)]
-            for sign in (-1.0, 1.0)
+            [np.clip(point + sign * step, 0.0, 1.0) for step in np.diag(steps)] for sign in (-1.0, 1.0)
         )
         at, *beside = self.attained([point, *below, *above])
         columns = []
