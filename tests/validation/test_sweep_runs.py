@@ -177,6 +177,17 @@ def test_a_part_without_some_columns_is_computed_again(whole, tmp_path):
     assert_frame_equal(swept(study, tmp_path / "out"), expected, check_exact=True)
 
 
+@pytest.mark.parametrize("name", ["notes.txt", "part-000099.parquet", "part-000001.parquet"])
+def test_what_is_no_part_is_refused(whole, tmp_path, name):
+    study, _, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    stray = tmp_path / "out/samples" / name
+    stray.unlink(missing_ok=True)
+    stray.mkdir()
+    with pytest.raises(ValidationError, match=rf"{name}: no part of this sweep; allowed there: its \d parts"):
+        swept(study, tmp_path / "out")
+
+
 def test_a_finished_sweep_computes_nothing(whole, monkeypatch):
     study, expected, folder = whole
     monkeypatch.setattr(run, "connected", None)  # whoever calls it fails

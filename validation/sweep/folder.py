@@ -158,12 +158,23 @@ def parts_present(folder: Path, chunks: Sequence[range], schema: pa.Schema) -> d
         Numbers of the samples of each chunk.
     schema : pyarrow.Schema
         The columns of a part.
+
+    Raises
+    ------
+    ValidationError
+        If something else lies among the parts.
     """
     place = folder / SAMPLES
     with writing(place):
         place.mkdir(exist_ok=True)
     for path in place.glob(".*.part"):
         path.unlink(missing_ok=True)
+    parts = {part_path(folder, number) for number in range(len(chunks))}
+    for path in sorted(place.iterdir()):
+        if path not in parts or not path.is_file():
+            raise ValidationError(
+                f"{path}: no part of this sweep; allowed there: its {len(parts)} parts; remove it"
+            )
     found = {}
     for number, numbers in enumerate(chunks):
         path = part_path(folder, number)
