@@ -95,7 +95,7 @@ def test_a_tabulated_wall_that_is_alike_is_computed_once(case_file):
 
 @settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
-    half=st.floats(0.3, 2.8),
+    half=st.floats(0.4, 2.8),
     centre=st.sampled_from([0.0, np.pi]),
     modulus=st.floats(1e5, 2e7),
     changes=st.sampled_from([{"flow": "row"}, {"flow": "section"}]),

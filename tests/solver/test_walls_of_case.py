@@ -105,6 +105,7 @@ def test_the_command_warns_where_a_section_is_not_local(case_file, monkeypatch):
         "{length: 2 m, radius: 2.5 mm, wall_thickness: 0.5 mm}",
     )
     changed(case_file, "viscosity: 0.003 Pa s", "viscosity: 0.05 Pa s")
+    changed(case_file, "x: [5 mm, 10 mm]", "x: [0.2 m, 0.6 m]")
     output = case_file.parent / "long.nc"
     done = subprocess.run(  # noqa: S603
         [sys.executable, "-m", "solver", case_file, "--variant", "patch", "--output", output],
