@@ -1,8 +1,10 @@
 """What all figures share: size, style, and how they become SVG."""
 
 import io
+from collections.abc import Sequence
 from typing import Any
 
+from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 
 WIDTH = 6.9  # inches; the text width of an A4 page
@@ -23,6 +25,19 @@ STYLE: dict[str, Any] = {
     "path.simplify": True,
 }
 _RASTER_DPI = 150  # of what is drawn as an image inside the vectors
+
+
+def legend_above(figure: Figure, handles: Sequence[Artist], left: float) -> None:
+    """Write a legend in one line on top of a figure, from ``left`` (inches) on."""
+    figure.legend(
+        handles=handles,
+        loc="upper left",
+        bbox_to_anchor=(left / WIDTH, 1.0),
+        borderaxespad=0.3,
+        ncols=len(handles),
+        frameon=False,
+        fontsize=7.5,
+    )
 
 
 def svg_text(figure: Figure) -> str:

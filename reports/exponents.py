@@ -11,7 +11,7 @@ from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
 from reports.numbers import SPACE, percent, span, unsigned
-from reports.stated import left_out, mostly
+from reports.stated import mostly, stated_variants
 from reports.words import spot, top_to_bottom
 
 
@@ -90,13 +90,9 @@ def section(comparison: Comparison) -> Section:
         "is that of the closest such profile; where its error is large, no γ describes the 3D profile."
     )
     stated = comparison.maps["reference_profile_exponent"]
-    shown = [
-        (k, name)
-        for k, name in enumerate(comparison.variants, start=1)
-        if mostly(stated.sel(variant=name).values)
-    ]
-    line = left_out(comparison, [name for _, name in shown], "profiles to fit an exponent to")
-    told = (Paragraph(line),) if line else ()
+    shown, told = stated_variants(
+        comparison, lambda name: mostly(stated.sel(variant=name).values), "profiles to fit an exponent to"
+    )
     any_cell = Interactive(
         "exponents-anywhere",
         "errors",

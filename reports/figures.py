@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
 
-from reports.drawing import STYLE, WIDTH, svg_text
+from reports.drawing import STYLE, WIDTH, legend_above, svg_text
 from reports.panels import LEFT, Array, Curves, Layout, PanelRow
 
 REFERENCE_COLOUR = "#1a1a1a"
@@ -128,15 +128,7 @@ def _legend(figure: Figure, rows: Sequence[PanelRow], marked: bool, names: tuple
         handles.append(Line2D([], [], color=_MARK_COLOUR, linewidth=0.8, linestyle=":", label="named times"))
     if any(panel.calcified for row in rows for panel in row.panels):
         handles.append(Patch(facecolor=TINT, edgecolor=_MARK_COLOUR, linewidth=0.4, label="calcified cell"))
-    figure.legend(
-        handles=handles,
-        loc="upper left",
-        bbox_to_anchor=(LEFT / WIDTH, 1.0),
-        borderaxespad=0.3,
-        ncols=len(handles),
-        frameon=False,
-        fontsize=7.5,
-    )
+    legend_above(figure, handles, LEFT)
 
 
 def _curves(

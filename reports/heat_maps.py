@@ -167,12 +167,8 @@ def _panel(
     axis.add_patch(frame)
 
 
-def colour_bar(
-    figure: Figure, place: tuple[float, float, float], norm: Normalize, colours: Colormap, label: str
-) -> None:
-    """Draw a colour bar at (left (inches), bottom, height)."""
-    left, bottom, height = place
-    bar = figure.add_axes((left / WIDTH, bottom, _BAR / WIDTH, height))
+def scale_colours(bar: Axes, norm: Normalize, colours: Colormap) -> None:
+    """Fill an axis with the colours of a scale, its values on the right."""
     low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
     bar.imshow(
         np.linspace(low, high, 256)[:, None],
@@ -186,6 +182,16 @@ def colour_bar(
     bar.yaxis.tick_right()
     bar.yaxis.set_label_position("right")
     bar.set_xticks([])
+
+
+def colour_bar(
+    figure: Figure, place: tuple[float, float, float], norm: Normalize, colours: Colormap, label: str
+) -> None:
+    """Draw a colour bar at (left (inches), bottom, height)."""
+    left, bottom, height = place
+    bar = figure.add_axes((left / WIDTH, bottom, _BAR / WIDTH, height))
+    low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
+    scale_colours(bar, norm, colours)
     bar.set_yticks([tick for tick in MaxNLocator(3).tick_values(low, high) if low <= tick <= high])
     bar.set_ylabel(label, fontsize=7.0, labelpad=1.5)
 

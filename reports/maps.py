@@ -12,7 +12,7 @@ from reports.heat_maps import MapRow, Maps, heat_maps
 from reports.load import Comparison
 from reports.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
 from reports.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
-from reports.stated import left_out, mostly
+from reports.stated import mostly, stated_variants
 from reports.words import instant, spot
 
 _MAPPED = ("radius", "sector_flow_rate", "profile_exponent", "pressure")
@@ -112,13 +112,11 @@ def section(comparison: Comparison) -> Section:
     title = "(x, φ) maps"
     if not comparison.times:
         return Section("maps", title, (Paragraph(WITHOUT_INSTANT),))
-    shown = [
-        (k, name)
-        for k, name in enumerate(comparison.variants, start=1)
-        if _mapped(comparison.maps.sel(variant=name).isel(time=0))
-    ]
-    line = left_out(comparison, [name for _, name in shown], "field over all cells")
-    told = (Paragraph(line),) if line else ()
+    shown, told = stated_variants(
+        comparison,
+        lambda name: bool(_mapped(comparison.maps.sel(variant=name).isel(time=0))),
+        "field over all cells",
+    )
     if not shown:
         return Section("maps", title, told)
     figures = tuple(

@@ -1,10 +1,11 @@
 """What the reference states: tables give single values, a simulation gives fields."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from reports.blocks import Paragraph
 from reports.load import Comparison
 from reports.numbers import listed
 
@@ -21,6 +22,15 @@ def anywhere(values: Array) -> bool:
 def mostly(values: Array) -> bool:
     """Whether a reference has values in most cells, so that a map of them can be read."""
     return bool(np.isnan(values).mean() <= 1 - _MOSTLY)
+
+
+def stated_variants(
+    comparison: Comparison, holds: Callable[[str], bool], what: str
+) -> tuple[list[tuple[int, str]], tuple[Paragraph, ...]]:
+    """Number and name of the variants of which the reference states `what`; a line on the others, if any."""
+    shown = [(k, name) for k, name in enumerate(comparison.variants, start=1) if holds(name)]
+    line = left_out(comparison, [name for _, name in shown], what)
+    return shown, (Paragraph(line),) if line else ()
 
 
 def left_out(comparison: Comparison, shown: Iterable[str], what: str) -> str:

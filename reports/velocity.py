@@ -15,7 +15,7 @@ from reports.load import Comparison
 from reports.metrics import Metrics
 from reports.numbers import SPACE, fixed, listed, signed, span, with_unit
 from reports.panels import Curves, PanelRow
-from reports.stated import anywhere, left_out
+from reports.stated import anywhere, stated_variants
 from reports.tabular import comma_separated
 from reports.words import column_heading, instant, row_heading, spot, top_to_bottom
 
@@ -164,13 +164,9 @@ def section(comparison: Comparison) -> Section:
     if not comparison.times:
         return Section("profiles", title, (Paragraph("The case names no instant to show profiles at."),))
     stated = comparison.profiles["reference_axial_velocity"]
-    shown = [
-        (k, name)
-        for k, name in enumerate(comparison.variants, start=1)
-        if anywhere(stated.sel(variant=name).values)
-    ]
-    line = left_out(comparison, [name for _, name in shown], "velocity profiles")
-    told = (Paragraph(line),) if line else ()
+    shown, told = stated_variants(
+        comparison, lambda name: anywhere(stated.sel(variant=name).values), "velocity profiles"
+    )
     if not shown:
         return Section("profiles", title, told)
     return Section(

@@ -15,9 +15,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from reports.drawing import STYLE, WIDTH, svg_text
+from reports.drawing import STYLE, WIDTH, legend_above, svg_text
 from reports.figures import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
-from reports.heat_maps import edges_of
+from reports.heat_maps import edges_of, scale_colours
 from reports.sweep.words import steady
 
 Array = NDArray[np.float64]
@@ -156,18 +156,11 @@ def planes(pairs: Sequence[Plane], row: Ordinate) -> str:
         left = _LEFT + len(pairs) * width + (len(pairs) - 1) * gap + 0.08
         scale = figure.add_axes((left / WIDTH, _BOTTOM / total, bar / WIDTH, height / total))
         _bar(scale, norm, row)
-        figure.legend(
-            handles=[
-                Line2D([], [], **_marker("o", "#ffffff"), label="band holds"),
-                Line2D([], [], **_marker("X", "#ffffff"), label="beyond the limit"),
-            ],
-            loc="upper left",
-            bbox_to_anchor=(_LEFT / WIDTH, 1.0),
-            borderaxespad=0.3,
-            ncols=2,
-            frameon=False,
-            fontsize=7.5,
-        )
+        handles = [
+            Line2D([], [], **_marker("o", "#ffffff"), label="band holds"),
+            Line2D([], [], **_marker("X", "#ffffff"), label="beyond the limit"),
+        ]
+        legend_above(figure, handles, _LEFT)
         return svg_text(figure)
 
 
@@ -230,18 +223,7 @@ def _norm(values: Array) -> Normalize:
 
 def _bar(axis: Axes, norm: Normalize, row: Ordinate) -> None:
     low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
-    axis.imshow(
-        np.linspace(low, high, 256)[:, None],
-        extent=(0.0, 1.0, low, high),
-        origin="lower",
-        aspect="auto",
-        norm=norm,
-        cmap=colormaps["viridis"],
-        interpolation="none",
-    )
-    axis.yaxis.tick_right()
-    axis.yaxis.set_label_position("right")
-    axis.set_xticks([])
+    scale_colours(axis, norm, colormaps["viridis"])
     axis.yaxis.set_major_locator(MaxNLocator(5))
     axis.set_ylabel(_wrapped(row.label, 1.75), fontsize=7.0)
     for limit in _limits(row):
@@ -336,15 +318,7 @@ def _legend(figure: Figure, judged: bool) -> None:
         handles.append(
             Line2D([], [], color=REFERENCE_COLOUR, linewidth=0.7, linestyle=(0, (4, 2)), label="limit")
         )
-    figure.legend(
-        handles=handles,
-        loc="upper left",
-        bbox_to_anchor=(_LEFT / WIDTH, 1.0),
-        borderaxespad=0.3,
-        ncols=len(handles),
-        frameon=False,
-        fontsize=7.5,
-    )
+    legend_above(figure, handles, _LEFT)
 
 
 def _marker(marker: str, colour: str) -> dict[str, Any]:
