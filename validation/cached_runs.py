@@ -19,7 +19,7 @@ from validation.cache import Cache, Entry
 from validation.errors import ValidationError
 from validation.provenance import checksum, shown_path
 from validation.rays import Rays
-from validation.reduced_model import ReducedModelRun, run_reduced_model
+from validation.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
 from validation.reference import Progress, Reference, ReferenceKind
 
 PACKAGES = ("cases", "solver", "febio_io", "validation")
@@ -147,6 +147,10 @@ def cached_rom(
 ) -> ReducedModelRun:
     """Run the reduced model, or take its run from the cache."""
 
+    def computed() -> ReducedModelRun:
+        compile_kernels(case)
+        return run_reduced_model(case, alignment, rays, progress)
+
     def unpacked(entry: Entry) -> ReducedModelRun:
         facts = entry.facts
         return ReducedModelRun(
@@ -163,7 +167,7 @@ def cached_rom(
     return _cached(
         store,
         lambda: rom_key(case, alignment, rays),
-        lambda: run_reduced_model(case, alignment, rays, progress),
+        computed,
         packed,
         unpacked,
         remark,
