@@ -25,15 +25,15 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
-from cases.calibration_file import changed_values
-from cases.case_file import load_case_file
-from cases.numeric_keys import numeric_keys
-from cases.schema import Case
-from cases.template import case_with, load_template
-from solver.batch import run_batch
-from solver.case_run import run_case
-from solver.model import Model
-from solver.result import CellHistory, section_mean
+from cases.reading.calibration_file import changed_values
+from cases.reading.case_file import load_case_file
+from cases.reading.numeric_keys import numeric_keys
+from cases.reading.template import case_with, load_template
+from cases.sections.case import Case
+from solver.case.run import run_case
+from solver.model.parameters import Model
+from solver.runs.batch import run_batch
+from solver.runs.result import CellHistory, section_mean
 from validation.output import write_text
 from validation.provenance import provenance
 

@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from cases.case_file import load_case_file
+from cases.reading.case_file import load_case_file
 from febio_io.feb.from_case import Choices, artery_model
 from febio_io.feb.model import MeshSize
 from febio_io.feb.structure import read_structure

@@ -4,10 +4,10 @@ import argparse
 import json
 import sys
 
-from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
-from cases.json_schema import case_file_schema
-from cases.schema import Case
+from cases.reading.case_file import CaseFile, load_case_file
+from cases.reading.json_schema import case_file_schema
+from cases.sections.case import Case
 
 
 def main(arguments: list[str] | None = None) -> int:

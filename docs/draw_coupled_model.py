@@ -8,10 +8,10 @@ from matplotlib import style
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from cases.case_file import load_case_file
+from cases.reading.case_file import load_case_file
 from reports.drawing import STYLE, WIDTH, svg_text
 from reports.figures import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
-from solver.from_case import grid_of
+from solver.case.model import grid_of
 from validation.febio_reference import read_febio
 from validation.ladder import models_between
 from validation.rays import rays

@@ -5,15 +5,15 @@ import math
 import sys
 from pathlib import Path
 
-from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
-from solver.diagnostics import Limits
+from cases.reading.case_file import CaseFile, load_case_file
+from solver.case.locality import locality_warning
+from solver.case.periodicity import periodicity_warning
 from solver.errors import SolverError
-from solver.files import check_folder
-from solver.locality import locality_warning
-from solver.periodicity import periodicity_warning
-from solver.progress import progress_bar
-from solver.run import pieces_folder, run_identity, run_to_file
+from solver.model.diagnostics import Limits
+from solver.runs.files import check_folder
+from solver.runs.progress import progress_bar
+from solver.runs.resumable import pieces_folder, run_identity, run_to_file
 
 WRONG_INPUT, INTERRUPTED = 2, 130
 USUAL = "what is usual: docs/methods.md, Diagnostics; solver.limits in the case stops a run beyond a limit"

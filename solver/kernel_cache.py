@@ -20,7 +20,7 @@ KERNELS = ("solver/schemes", "validation")  # every folder with kernels: they sh
 def sources_digest(folders: Iterable[Path]) -> str:
     """Digest of all Python sources in folders, names and contents."""
     digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted(path for folder in folders for path in folder.glob("*.py")):
+    for path in sorted(path for folder in folders for path in folder.rglob("*.py")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
 

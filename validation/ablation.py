@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
-from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
-from cases.schema import Case, LocalCalcification
+from cases.reading.case_file import CaseFile, load_case_file
+from cases.sections.case import Case, LocalCalcification
 from febio_io.errors import FebioError
 from reports import ReportError, write_reports
+from solver.case.model import grid_of
 from solver.errors import SolverError
-from solver.from_case import grid_of
 from validation.errors import ValidationError
 from validation.generated import check_stated
 from validation.ladder import models_between

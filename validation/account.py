@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-from cases.case_file import CaseFile
-from cases.comparison import Band
-from cases.schema import Case
-from solver.locality import locality_warning
-from solver.periodicity import periodicity_warning
+from cases.reading.case_file import CaseFile
+from cases.sections.case import Case
+from cases.sections.compare import Band
+from solver.case.locality import locality_warning
+from solver.case.periodicity import periodicity_warning
 from validation.alignment import WHOLE
 from validation.bootstrap import SEED
 from validation.comparison import VariantRun

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from cases.comparison import Band
 from cases.fields import FIELDS
-from cases.schema import Case
+from cases.sections.case import Case
+from cases.sections.compare import Band
 from validation.cycle_quantities import CYCLE_QUANTITIES
 from validation.metrics import Models, Row, pooled
 

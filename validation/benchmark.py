@@ -18,13 +18,13 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
-from cases.schema import Case
-from solver.case_run import walk
+from cases.reading.case_file import CaseFile, load_case_file
+from cases.sections.case import Case
+from solver.case.godunov import THREADS
+from solver.case.model import model_of
+from solver.case.run import walk
 from solver.errors import SolverError
-from solver.from_case import model_of
-from solver.godunov_case import THREADS
 from validation.output import write_text
 from validation.provenance import provenance
 

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import numpy as np
 from pydantic import BaseModel
 
-from cases.schema import Case
+from cases.sections.case import Case
 from validation.alignment import Alignment
 from validation.cache import Cache, Entry
 from validation.errors import ValidationError

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.calcification import FULL_TURN, LocalCalcification, Part
-from cases.schema import Case
-from solver.calcification import distance_around, distance_to_interval
+from cases.sections.calcification import FULL_TURN, LocalCalcification, Part
+from cases.sections.case import Case
+from solver.geometry.calcification import distance_around, distance_to_interval
 from validation.mesh import Block
 
 Floats = NDArray[np.float64]

@@ -11,9 +11,9 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from cases.calibration_file import Calibration, load_calibration
 from cases.errors import CaseError
 from cases.fields import FIELDS
+from cases.reading.calibration_file import Calibration, load_calibration
 from febio_io.errors import FebioError
 from solver.errors import SolverError
 from validation.cache import open_cache

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 from ruamel.yaml import YAML
 
-from cases.calibration_file import Calibration
-from cases.case_file import load_case_file
 from cases.errors import CaseError
-from cases.numeric_keys import numeric_keys
+from cases.reading.calibration_file import Calibration
+from cases.reading.case_file import load_case_file
+from cases.reading.numeric_keys import numeric_keys
 from validation.errors import ValidationError
 
 SAME = 1e-12  # relative difference of a value that was written and read

@@ -7,13 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from cases.calibration_file import Calibration, Parameter, changed_values
 from cases.errors import CaseError
 from cases.fields import FIELDS
-from cases.schema import Case
-from cases.template import case_with
-from solver.batch import run_batch
+from cases.reading.calibration_file import Calibration, Parameter, changed_values
+from cases.reading.template import case_with
+from cases.sections.case import Case
 from solver.errors import SolverError
+from solver.runs.batch import run_batch
 from validation.calibration_targets import Observed
 from validation.errors import ValidationError
 

@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from cases.calibration_file import Calibration
 from cases.fields import FIELDS
+from cases.reading.calibration_file import Calibration
 from validation.calibrated_case import require_none_read, snippet
 from validation.calibration import Fit
 from validation.calibration_targets import Observed

@@ -7,12 +7,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cases.calibration_file import Calibration, Place, ReferenceTarget, Target
 from cases.fields import FIELDS
-from cases.schema import Case
-from solver.from_case import grid_of
-from solver.model import Model
-from solver.result import CellHistory, coordinates, described, section_mean
+from cases.reading.calibration_file import Calibration, Place, ReferenceTarget, Target
+from cases.sections.case import Case
+from solver.case.model import grid_of
+from solver.model.parameters import Model
+from solver.runs.result import CellHistory, coordinates, described, section_mean
 from validation.cache import Cache
 from validation.cached_runs import cached_reference
 from validation.cycle_quantities import CYCLE_QUANTITIES
@@ -109,7 +109,7 @@ def _of_targets(case: Case, targets: tuple[Target, ...]) -> Observed:
 
 
 def measured(model: Model, cells: CellHistory, names: Iterable[str]) -> xr.Dataset:
-    """Fields of a run that are wanted, as :func:`solver.result.cell_dataset` gives them."""
+    """Fields of a run that are wanted, as :func:`solver.runs.result.cell_dataset` gives them."""
     found: dict[str, Callable[[], Floats]] = {
         "radius": lambda: np.sqrt(cells.area),
         "section_pressure": lambda: section_mean(cells.pressure, cells.area),

@@ -15,11 +15,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
+from cases.reading.case_file import CaseFile, load_case_file
 from febio_io.errors import FebioError
+from solver.case.model import inlet_signal
 from solver.errors import SolverError
-from solver.from_case import inlet_signal
 from validation import metrics
 from validation.account import described
 from validation.assumptions import assumption_rows

@@ -9,10 +9,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cases.case_file import CaseFile
-from cases.schema import Case, NoCalcification, TablesReference
-from solver.from_case import calcified_cells
-from solver.result import CONVENTIONS
+from cases.reading.case_file import CaseFile
+from cases.sections.case import Case, NoCalcification, TablesReference
+from solver.case.model import calcified_cells
+from solver.runs.result import CONVENTIONS
 from validation.alignment import Alignment
 from validation.errors import ValidationError
 from validation.instants import common_states, nearest_states, wanted_instants

@@ -12,9 +12,9 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError
 from cases.fields import FIELDS
+from cases.reading.case_file import CaseFile, load_case_file
 from solver.errors import SolverError
 from validation.errors import ValidationError
 from validation.output import write_json, write_text

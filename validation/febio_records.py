@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from cases.schema import RecordFile
+from cases.sections.case import RecordFile
 from febio_io.data_records import DataRecord, read_data_record
 from febio_io.xplt import Plot
 from validation.errors import UnusableReferenceError

@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cases.schema import Case, FebioReference
+from cases.sections.case import Case, FebioReference
 from febio_io.xplt import Plot, open_plot
-from solver.from_case import inlet_signal
+from solver.case.model import inlet_signal
 from validation.alignment import Alignment, align
 from validation.calcified_extent import described, doubts, extent
 from validation.derived import derived_fields

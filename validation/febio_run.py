@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from cases.schema import FebioReference
+from cases.sections.case import FebioReference
 from febio_io.xplt import Plot
 from validation.febio_log import account_of_log
 from validation.febio_records import account_of_record

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.reference import Vector, components
+from cases.sections.reference import Vector, components
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ import shlex
 from collections.abc import Mapping
 from pathlib import Path
 
-from cases.case_file import ONLY_VARIANT, CaseFile
-from cases.schema import Case, FebioReference
+from cases.reading.case_file import ONLY_VARIANT, CaseFile
+from cases.sections.case import Case, FebioReference
 from validation.errors import ValidationError
 from validation.provenance import shown_path
 

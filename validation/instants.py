@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.schema import Case
-from solver.from_case import inlet_signal
-from solver.waveform import local_minima
+from cases.sections.case import Case
+from solver.case.model import inlet_signal
+from solver.model.waveform import local_minima
 from validation.errors import ValidationError
 
 TOLERANCE = 1e-4  # share of a cycle by which two states of one instant may differ

@@ -1,8 +1,8 @@
 """The models between the thesis's and the coupled one, each a change of one thing, from any case."""
 
-from cases.schema import Case
-from cases.solver_settings import SemiImplicitSolver
-from cases.wall import HomogeneousWall, MembraneWall, OwnWall, TableWall, row_wall
+from cases.sections.case import Case
+from cases.sections.solver import SemiImplicitSolver
+from cases.sections.wall import HomogeneousWall, MembraneWall, OwnWall, TableWall, row_wall
 from validation.errors import ValidationError
 
 LINEAR = ("thin", "thick")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.schema import FebioReference
+from cases.sections.case import FebioReference
 from febio_io.xplt import Domain, Plot
 from validation.elements import KIND_OF_VTK_TYPE, NODES
 from validation.errors import UnusableReferenceError

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.reference import components
-from cases.schema import FebioReference
+from cases.sections.case import FebioReference
+from cases.sections.reference import components
 from febio_io.xplt import Plot
 from validation.errors import UnusableReferenceError
 from validation.frame import frame

@@ -8,12 +8,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cases.schema import Case, MembraneWall
-from solver.case_run import run_case
-from solver.cross_flow import azimuthal_velocity, radial_velocity
-from solver.periodicity import cycle_change
-from solver.profiles import axis_ratio, shape
-from solver.walls_of_case import has_section_pressure
+from cases.sections.case import Case, MembraneWall
+from solver.case.periodicity import cycle_change
+from solver.case.run import run_case
+from solver.case.wall import has_section_pressure
+from solver.model.cross_flow import azimuthal_velocity, radial_velocity
+from solver.model.profiles import axis_ratio, shape
 from validation.alignment import Alignment
 from validation.derived import as_dataset, dominance
 from validation.rays import Rays

@@ -1,7 +1,7 @@
 """Where 3D data comes from: the protocol that a kind of reference follows.
 
 A kind is one module with a :class:`ReferenceKind`; :mod:`validation.reference_kinds` registers it under
-the ``reference.kind`` of the case file, and :mod:`cases.reference` holds what a case states of it.
+the ``reference.kind`` of the case file, and :mod:`cases.sections.reference` holds what a case states of it.
 """
 
 from collections.abc import Callable, Mapping
@@ -10,7 +10,7 @@ from typing import Any
 
 import xarray as xr
 
-from cases.schema import Case
+from cases.sections.case import Case
 from validation.alignment import Alignment
 from validation.rays import Rays
 

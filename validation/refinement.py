@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from cases.fields import FIELDS
-from cases.schema import Case
-from solver.case_run import run_case
-from solver.from_case import grid_of
+from cases.sections.case import Case
+from solver.case.model import grid_of
+from solver.case.run import run_case
 from validation.convergence import Convergence, convergence
 from validation.cycle_quantities import CYCLE_QUANTITIES
 from validation.errors import ValidationError

@@ -11,9 +11,9 @@ from typing import Any
 from rich.console import Console
 from rich.progress import Progress as Display
 
-from cases.schema import Case
+from cases.sections.case import Case
+from solver.case.model import grid_of
 from solver.errors import SolverError
-from solver.from_case import grid_of
 from validation.alignment import Alignment
 from validation.cache import Cache
 from validation.cached_runs import cached_reference, cached_rom

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from cases.errors import QuantityError
 from cases.fields import FIELDS
-from cases.schema import Case, TablesReference
-from cases.units import DIMENSION_OF_UNIT, parse_quantity
+from cases.sections.case import Case, TablesReference
+from cases.values.units import DIMENSION_OF_UNIT, parse_quantity
 from validation.alignment import Alignment
 from validation.derived import as_dataset
 from validation.errors import UnusableReferenceError

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from cases.schema import Case
-from solver.case_run import run_case
+from cases.sections.case import Case
+from solver.case.run import run_case
 from validation.errors import ValidationError
 
 Floats = NDArray[np.float64]

@@ -6,12 +6,12 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseError, QuantityError
-from cases.ranges import TIME_STEPS
-from cases.reference import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
-from cases.schema import Case
-from cases.units import DIMENSIONS, parse_quantity
+from cases.reading.case_file import CaseFile, load_case_file
+from cases.sections.case import Case
+from cases.sections.reference import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
+from cases.values.ranges import TIME_STEPS
+from cases.values.units import DIMENSIONS, parse_quantity
 from febio_io.errors import FebioError
 from febio_io.feb.from_case import Choices, artery_model
 from febio_io.feb.model import FebioModelError, MeshSize

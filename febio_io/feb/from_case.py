@@ -7,8 +7,7 @@ from functools import partial
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from cases.reference import FebioReference, Reference
-from cases.schema import (
+from cases.sections.case import (
     Case,
     FourierSeries,
     HomogeneousWall,
@@ -19,8 +18,9 @@ from cases.schema import (
     VelocityInlet,
     WindkesselOutlet,
 )
-from cases.wall import row_wall
-from cases.waveform_file import Waveform
+from cases.sections.reference import FebioReference, Reference
+from cases.sections.wall import row_wall
+from cases.values.waveform_file import Waveform
 from febio_io.feb.load_curves import Signal, cycles_after_ramp, ramp_curve
 from febio_io.feb.model import (
     ArteryModel,

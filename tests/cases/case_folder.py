@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from cases.case_file import CaseFile, load_case_file
 from cases.errors import CaseFileError
+from cases.reading.case_file import CaseFile, load_case_file
 
 WAVEFORM = """\
 # one cycle

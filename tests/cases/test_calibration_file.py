@@ -2,11 +2,11 @@
 
 import pytest
 
-from cases.calibration_file import changed_values, load_calibration
-from cases.case_file import load_case_file
 from cases.errors import CaseFileError
-from cases.numeric_keys import numeric_keys
-from cases.template import case_with
+from cases.reading.calibration_file import changed_values, load_calibration
+from cases.reading.case_file import load_case_file
+from cases.reading.numeric_keys import numeric_keys
+from cases.reading.template import case_with
 
 CASE = """\
 name: short

@@ -3,7 +3,7 @@
 import pytest
 
 from cases.errors import CaseError
-from cases.schema import (
+from cases.sections.case import (
     FlowInlet,
     NonReflectingOutlet,
     PressureInlet,
@@ -11,7 +11,7 @@ from cases.schema import (
     VelocityInlet,
     WindkesselOutlet,
 )
-from solver.from_case import inlet_signal
+from solver.case.model import inlet_signal
 
 INLET = "{kind: velocity, waveform: data/inlet.csv}"
 OUTLET = "{kind: resistance, resistance: 1.358e9 Pa s/m^3, offset: 9330 Pa}"

@@ -9,8 +9,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
-from cases.case_file import load_case_file
 from cases.errors import CaseFileError
+from cases.reading.case_file import load_case_file
 
 DATA = YAML(typ="safe").load(BASE)
 shared_folder = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from cases.case_file import load_case_file
 from cases.errors import CaseError, CaseFileError
-from cases.schema import Case, LocalCalcification
+from cases.reading.case_file import load_case_file
+from cases.sections.case import Case, LocalCalcification
 
 
 def test_the_ready_file_loads(ready_file):

@@ -5,9 +5,9 @@ from case_folder import FLOW, PRESSURE, WALL, WAVEFORM
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cases import ranges
-from cases.ranges import Range
-from cases.units import DIMENSIONS, parse_quantity
+from cases.values import ranges
+from cases.values.ranges import Range
+from cases.values.units import DIMENSIONS, parse_quantity
 
 INLET = "{kind: velocity, waveform: data/inlet.csv}"
 OUTLET = "{kind: resistance, resistance: 1.358e9 Pa s/m^3, offset: 9330 Pa}"

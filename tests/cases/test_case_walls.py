@@ -4,7 +4,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from cases.schema import HomogeneousWall, LayeredWall, TableWall
+from cases.sections.case import HomogeneousWall, LayeredWall, TableWall
 
 THICK = "{law: thick, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}"
 LAYERS = (

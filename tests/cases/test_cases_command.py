@@ -3,9 +3,9 @@ import json
 import pytest
 
 from cases.__main__ import main
-from cases.json_schema import case_file_schema
-from cases.schema import Case
-from cases.yaml_nodes import parse_yaml
+from cases.reading.json_schema import case_file_schema
+from cases.reading.yaml_nodes import parse_yaml
+from cases.sections.case import Case
 
 
 def test_a_line_for_each_variant(ready_file, capsys):

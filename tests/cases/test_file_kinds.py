@@ -3,9 +3,9 @@ from pathlib import Path
 import pytest
 
 from cases.__main__ import main
-from cases.calibration_file import load_calibration
-from cases.case_file import load_case_file
 from cases.errors import CaseFileError
+from cases.reading.calibration_file import load_calibration
+from cases.reading.case_file import load_case_file
 
 SHIPPED = Path(__file__).parents[2] / "cases"
 

@@ -3,8 +3,8 @@
 import pytest
 from test_case_walls import LAYERS, THICK, wall_of
 
-from cases.schema import HomogeneousWall, LayeredWall, MembraneWall, TableWall
-from cases.wall import row_wall
+from cases.sections.case import HomogeneousWall, LayeredWall, MembraneWall, TableWall
+from cases.sections.wall import row_wall
 
 MATERIAL = "youngs_modulus: 0.6 MPa, poisson_ratio: 0.48"
 MEMBRANES = {

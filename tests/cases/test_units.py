@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cases.comparison import COMPARED_QUANTITIES
 from cases.errors import QuantityError
 from cases.fields import FIELDS
-from cases.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity, parse_ratio
+from cases.sections.compare import COMPARED_QUANTITIES
+from cases.values.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity, parse_ratio
 
 FACTORS = {
     ("length", "mm"): "0.001",

@@ -3,8 +3,8 @@ from pathlib import Path
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cases.variants import DISCRIMINATORS, KEYS_OF_KINDS, merge_variant
-from cases.yaml_nodes import Node, parse_yaml
+from cases.reading.variants import DISCRIMINATORS, KEYS_OF_KINDS, merge_variant
+from cases.reading.yaml_nodes import Node, parse_yaml
 
 words = st.text("abc", min_size=1, max_size=2)
 trees = st.dictionaries(words, st.recursive(words, lambda below: st.dictionaries(words, below), max_leaves=6))

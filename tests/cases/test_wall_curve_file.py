@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cases.errors import ColumnFileError
-from cases.wall_curve_file import read_wall_curve
+from cases.values.wall_curve_file import read_wall_curve
 
 HEADER = "radius_m,pressure_Pa"
 

@@ -3,9 +3,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cases.column_file import FLOW_RATE, PRESSURE
 from cases.errors import ColumnFileError
-from cases.waveform_file import read_waveform
+from cases.values.column_file import FLOW_RATE, PRESSURE
+from cases.values.waveform_file import read_waveform
 
 HEADER = "t_s,mean_velocity_m_s"
 

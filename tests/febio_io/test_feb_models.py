@@ -7,7 +7,7 @@ import pytest
 from feb_contents import Parsed
 from numpy.testing import assert_allclose
 
-from cases.case_file import load_case_file
+from cases.reading.case_file import load_case_file
 from febio_io.feb.command import main
 from febio_io.feb.structure import read_structure
 

@@ -5,9 +5,9 @@ import pytest
 from thesis_artery import DIASTOLE, PATTERNS, PULSATILE_OUTLET, artery, thesis_waveform
 
 from solver.errors import NoAdmissibleProfile, NotConverged
-from solver.model import uniform_state
-from solver.simulate import simulate, snapshots
-from solver.waveform import Waveform
+from solver.marching.semi_implicit import simulate, snapshots
+from solver.model.parameters import uniform_state
+from solver.model.waveform import Waveform
 
 WAVEFORM = thesis_waveform()
 TIMES = np.linspace(0, WAVEFORM.period, 9)

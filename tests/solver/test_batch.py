@@ -8,15 +8,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from thesis_artery import artery
 
-from cases.case_file import load_case_file
-from cases.solver_settings import Limits
-from solver import batch
-from solver.batch import run_batch
-from solver.case_run import run_case
+from cases.reading.case_file import load_case_file
+from cases.sections.solver import Limits
+from solver.case.run import run_case
 from solver.errors import ModelError, SolverError
-from solver.grid import Grid
-from solver.result import cell_dataset
-from solver.symmetry import all_rows, fewer_rows
+from solver.geometry.grid import Grid
+from solver.geometry.symmetry import all_rows, fewer_rows
+from solver.runs import batch
+from solver.runs.batch import run_batch
+from solver.runs.result import cell_dataset
 
 TIMES = np.array([0.0, 0.01, 0.035, 0.1, 0.2])
 ROUND_OFF = 1e-12  # of rows that stand for others

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from thesis_artery import CALCIFIED, HEALTHY, LENGTH, RING, SECTOR
 
-from solver.calcification import Patch, calcified_stiffness, scaled_distance
-from solver.grid import Grid
+from solver.geometry.calcification import Patch, calcified_stiffness, scaled_distance
+from solver.geometry.grid import Grid
 
 angles = st.floats(0.0, 2 * np.pi)
 XI_X, XI_PHI = 2.5e-3, 0.375 * np.pi

@@ -8,16 +8,16 @@ import pytest
 from thesis_artery import DENSITY, DIASTOLE, LENGTH, PATTERNS, SECTION_OUTLET, VISCOSITY, artery
 
 import solver.__main__ as command
-from solver.columns import columns_of
-from solver.diagnostics import Columns, Limits, Monitor, last_interval_weights, wall_state
 from solver.errors import AxisNotContinuous, CourantExceeded, EnergyNotBalanced, MassNotConserved
-from solver.model import uniform_state
-from solver.profiles import continuity_exponent
-from solver.schemes.balance import closed_exponents
-from solver.section_wall import linear_section_wall
-from solver.simulate import simulate
-from solver.steady import steady_state
-from solver.wall_table import MasterCurve, wall_table
+from solver.marching.columns import columns_of
+from solver.marching.semi_implicit import simulate
+from solver.marching.steady import steady_state
+from solver.model.diagnostics import Columns, Limits, Monitor, last_interval_weights, wall_state
+from solver.model.parameters import uniform_state
+from solver.model.profiles import continuity_exponent
+from solver.schemes.rows.balance import closed_exponents
+from solver.wall.sections import linear_section_wall
+from solver.wall.table import MasterCurve, wall_table
 
 PERIOD = 0.2
 

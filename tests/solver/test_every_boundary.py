@@ -4,12 +4,18 @@ import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, PATTERNS, artery
 
-from solver.boundary import Inlet, NonReflectingOutlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
-from solver.model import uniform_state
-from solver.simulate import implicitness
-from solver.steady import steady_state
-from solver.stepper import Stepper
-from solver.waveform import FourierSeries
+from solver.marching.row_stepper import Stepper
+from solver.marching.semi_implicit import implicitness
+from solver.marching.steady import steady_state
+from solver.model.boundary import (
+    Inlet,
+    NonReflectingOutlet,
+    PressureOutlet,
+    ResistanceOutlet,
+    WindkesselOutlet,
+)
+from solver.model.parameters import uniform_state
+from solver.model.waveform import FourierSeries
 
 LOAD = 11.9e3
 

@@ -6,10 +6,6 @@ import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, PATTERNS, SECTION_OUTLET, artery
 
-from solver import steady
-from solver.boundary import Inlet, NonReflectingOutlet, ResistanceOutlet
-from solver.columns import columns_of
-from solver.diagnostics import Limits, Monitor
 from solver.errors import (
     ModelError,
     NoAdmissibleProfile,
@@ -20,12 +16,16 @@ from solver.errors import (
     SolverError,
     WallCollapse,
 )
-from solver.model import State, uniform_state
-from solver.simulate import simulate, snapshots
-from solver.steady import steady_state
-from solver.stepper import Stepper
-from solver.walk import Stop, history_of
-from solver.waveform import Waveform, constant
+from solver.marching import steady
+from solver.marching.columns import columns_of
+from solver.marching.row_stepper import Stepper
+from solver.marching.semi_implicit import simulate, snapshots
+from solver.marching.steady import steady_state
+from solver.marching.walk import Stop, history_of
+from solver.model.boundary import Inlet, NonReflectingOutlet, ResistanceOutlet
+from solver.model.diagnostics import Limits, Monitor
+from solver.model.parameters import State, uniform_state
+from solver.model.waveform import Waveform, constant
 
 
 def advance(model, state, velocity=DIASTOLE, time_step=1e-3, steps=1):

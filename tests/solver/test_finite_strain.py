@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_bvp
 
 from solver.errors import ModelError
-from solver.finite_strain import MATERIALS, inflation_curve
-from solver.wall import thick_wall_stiffness
+from solver.wall.finite_strain import MATERIALS, inflation_curve
+from solver.wall.stiffness import thick_wall_stiffness
 
 MODULUS, RATIO, RADIUS, THICKNESS = 0.6e6, 0.48, 2.5e-3, 0.5e-3
 BOTH = pytest.mark.parametrize("material", list(MATERIALS))

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from thesis_artery import HEALTHY, REFERENCE_DATA, thesis_waveform
 
-from cases.case_file import load_case_file
+from cases.reading.case_file import load_case_file
+from solver.case.model import calcified_cells, default_output_times, model_of
 from solver.errors import ModelError
-from solver.from_case import calcified_cells, default_output_times, model_of
 
 
 @pytest.fixture

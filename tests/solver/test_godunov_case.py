@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from cases.case_file import load_case_file
-from solver.case_run import run_case, walk
+from cases.reading.case_file import load_case_file
+from solver.case.model import model_of
+from solver.case.run import run_case, walk
 from solver.errors import ModelError
-from solver.from_case import model_of
 
 PARTS = {
     "wall": "{law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}",

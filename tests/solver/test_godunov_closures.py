@@ -7,14 +7,14 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from solver.schemes.continuity import (
+from solver.schemes.godunov.continuity import (
     average,
     close_section_profiles,
     least_squares,
     maximum,
     profile_distance,
 )
-from solver.schemes.godunov_layout import AVERAGE, LEAST_SQUARES, MAXIMUM
+from solver.schemes.godunov.layout import AVERAGE, LEAST_SQUARES, MAXIMUM
 
 U = np.array([0.08, 0.1, 0.11, 0.09, 0.07, 0.085])
 GAMMA = np.array([1.8, 2.0, 2.6, 2.1, 1.5, 2.2])

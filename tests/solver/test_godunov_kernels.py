@@ -6,13 +6,13 @@ from godunov_cases import flowing, local
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solver.calcification import Patch
 from solver.errors import ModelError
-from solver.grid import Grid
-from solver.schemes import godunov_layout as layout
-from solver.schemes.godunov_exchange import SERIES_LIMIT, exchange, growth
-from solver.schemes.godunov_waves import decompose, limited
-from solver.smooth_wall import column_places, smooth_wall
+from solver.geometry.calcification import Patch
+from solver.geometry.grid import Grid
+from solver.schemes.godunov import layout
+from solver.schemes.godunov.exchange import SERIES_LIMIT, exchange, growth
+from solver.schemes.godunov.waves import decompose, limited
+from solver.wall.smooth_patch import column_places, smooth_wall
 from validation.thesis_tables.artery import CALCIFIED, HEALTHY
 
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from godunov_cases import at_rest, flowing, local
 
-from solver.calcification import Patch
 from solver.errors import ModelError, NoAdmissibleProfile, NotSteady, WallCollapse
-from solver.godunov import Stepper, march, march_to_steady, thesis_criteria
-from solver.godunov_setup import LIMITERS, State, held, load, reference_state, repeated
-from solver.smooth_wall import smooth_wall
+from solver.geometry.calcification import Patch
+from solver.marching.godunov import Stepper, march, march_to_steady, thesis_criteria
+from solver.marching.godunov_setup import LIMITERS, State, held, load, reference_state, repeated
+from solver.wall.smooth_patch import smooth_wall
 from validation.thesis_tables.artery import CALCIFIED, HEALTHY, QUARTER_CM, artery, ring
 
 UNKNOWNS = ("area", "flow", "exponent")

@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 from thesis_artery import PULSATILE_OUTLET, REFERENCE_DATA, artery, pressure, section_flow, thesis_waveform
 
-from solver.simulate import simulate
+from solver.marching.semi_implicit import simulate
 
 HALF_A_DIGIT = 0.5e-3  # cm³/s
 

@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from thesis_artery import HEALTHY, RADIUS, artery, pressure
 
-from solver.boundary import ResistanceOutlet
 from solver.errors import ModelError
-from solver.grid import Grid
-from solver.model import uniform_state
+from solver.geometry.grid import Grid
+from solver.model.boundary import ResistanceOutlet
+from solver.model.parameters import uniform_state
 
 
 @given(st.floats(1e-3, 1.0), st.integers(3, 60), st.one_of(st.just(1), st.integers(4, 60)))

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, HEALTHY, LENGTH, PATTERNS, SECTION_OUTLET, artery
 
-from solver.boundary import Inlet, PressureOutlet, ResistanceOutlet
 from solver.errors import ModelError
-from solver.model import uniform_state
-from solver.simulate import implicitness, simulate
-from solver.steady import steady_state
-from solver.stepper import Stepper
-from solver.waveform import constant
+from solver.marching.row_stepper import Stepper
+from solver.marching.semi_implicit import implicitness, simulate
+from solver.marching.steady import steady_state
+from solver.model.boundary import Inlet, PressureOutlet, ResistanceOutlet
+from solver.model.parameters import uniform_state
+from solver.model.waveform import constant
 
 BASE = {"velocity": DIASTOLE, "flow": 1.85e-6, "pressure": 11.9e3}
 SWING = {"velocity": 0.5, "flow": 0.5, "pressure": 0.1}

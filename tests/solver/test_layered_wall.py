@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solver.layered_wall import Layer, layered_wall_stiffness
-from solver.wall import thick_wall_stiffness
+from solver.wall.layers import Layer, layered_wall_stiffness
+from solver.wall.stiffness import thick_wall_stiffness
 
 RADIUS, RATIO = 2.5e-3, 0.48
 INTIMA, MEDIA, ADVENTITIA = Layer(0.05e-3, 0.4e6), Layer(0.3e-3, 0.8e6), Layer(0.15e-3, 0.5e6)

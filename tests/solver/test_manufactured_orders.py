@@ -22,15 +22,15 @@ from manufactured import (
     stiffness_slope,
 )
 
-from solver.boundary import Inlet, PressureOutlet
-from solver.godunov import Stepper as ExplicitStepper
-from solver.godunov_setup import Setup, held
-from solver.godunov_setup import State as ColumnState
-from solver.grid import Grid
-from solver.model import Model, State
-from solver.simulate import DAMPING_RATE
-from solver.smooth_wall import SmoothWall
-from solver.stepper import Stepper
+from solver.geometry.grid import Grid
+from solver.marching.godunov import Stepper as ExplicitStepper
+from solver.marching.godunov_setup import Setup, held
+from solver.marching.godunov_setup import State as ColumnState
+from solver.marching.row_stepper import Stepper
+from solver.marching.semi_implicit import DAMPING_RATE
+from solver.model.boundary import Inlet, PressureOutlet
+from solver.model.parameters import Model, State
+from solver.wall.smooth_patch import SmoothWall
 
 CYCLE_SHARE = 0.048  # s of HeartBeat
 WAVE_TIME = 0.3e-3  # s of StandingWave: from the ends it comes 3 mm far

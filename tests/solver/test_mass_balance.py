@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from thesis_artery import HEALTHY, PATTERNS, SECTION_OUTLET, artery, patched, thesis_waveform
 
-from solver.boundary import ResistanceOutlet
-from solver.grid import Grid
-from solver.simulate import simulate
-from solver.steady import steady_state
-from solver.stepper import Stepper, lumen_volume
+from solver.geometry.grid import Grid
+from solver.marching.row_stepper import Stepper, lumen_volume
+from solver.marching.semi_implicit import simulate
+from solver.marching.steady import steady_state
+from solver.model.boundary import ResistanceOutlet
 
 WAVEFORM = thesis_waveform()
 

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solver.errors import ModelError
-from solver.membrane import FREE, QUARTERS, Membrane, displacement, operator
-from solver.spatial_angle import radius_at_angles
+from solver.geometry.spatial_angle import radius_at_angles
+from solver.wall.membrane import FREE, QUARTERS, Membrane, displacement, operator
 
 RADIUS, LENGTH, PRESSURE = 2.5e-3, 15e-3, 16e3
 HEALTHY, CALCIFIED = 301.0, 5017.0

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import solver.wall_store as wall_store
-from solver import membrane_tables
+import solver.wall.store as wall_store
 from solver.errors import ModelError
-from solver.grid import Grid
-from solver.membrane_tables import MembraneWall, locality_error, radii, section_wall
-from solver.section_wall import SectionWall, linear_section_wall, row_table
+from solver.geometry.grid import Grid
+from solver.wall import membrane_tables
+from solver.wall.membrane_tables import MembraneWall, locality_error, radii, section_wall
+from solver.wall.sections import SectionWall, linear_section_wall, row_table
 
 RADIUS, HEALTHY, CALCIFIED = 2.5e-3, 301.0, 5017.0
 

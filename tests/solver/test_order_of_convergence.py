@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, HEALTHY, LENGTH, SECTION_OUTLET, STEADY_OUTLET, artery, pressure
 
-from solver.grid import Grid
-from solver.simulate import simulate
+from solver.geometry.grid import Grid
+from solver.marching.semi_implicit import simulate
 
 END = 0.08
 

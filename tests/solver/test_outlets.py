@@ -5,13 +5,19 @@ import pytest
 from scipy.integrate import solve_ivp
 from thesis_artery import DIASTOLE, PATTERNS, STEADY_OUTLET, artery
 
-from solver.boundary import Inlet, NonReflectingOutlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
 from solver.errors import ModelError
-from solver.model import uniform_state
-from solver.simulate import implicitness, simulate
-from solver.steady import steady_state
-from solver.stepper import Stepper
-from solver.waveform import FourierSeries, Ramped, constant
+from solver.marching.row_stepper import Stepper
+from solver.marching.semi_implicit import implicitness, simulate
+from solver.marching.steady import steady_state
+from solver.model.boundary import (
+    Inlet,
+    NonReflectingOutlet,
+    PressureOutlet,
+    ResistanceOutlet,
+    WindkesselOutlet,
+)
+from solver.model.parameters import uniform_state
+from solver.model.waveform import FourierSeries, Ramped, constant
 
 PERIOD, MEAN_FLOW = 0.8, 1.9e-6
 PULSE = FourierSeries(

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from solver.profiles import axis_ratio, axis_velocity, continuity_exponent, momentum_correction, shape
+from solver.model.profiles import axis_ratio, axis_velocity, continuity_exponent, momentum_correction, shape
 
 exponents = st.floats(0.2, 40.0)
 REST = 1e-9

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from thesis_artery import DENSITY, HEALTHY, LENGTH, RADIUS, artery, pressure
 
-from solver.boundary import ResistanceOutlet
-from solver.model import State, uniform_state
-from solver.stepper import Stepper
+from solver.marching.row_stepper import Stepper
+from solver.model.boundary import ResistanceOutlet
+from solver.model.parameters import State, uniform_state
 
 MEAN, AMPLITUDE = 9330.0, 10.0
 

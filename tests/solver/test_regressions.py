@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from thesis_artery import DIASTOLE, RING, SECTOR, artery
 
-from solver.boundary import Inlet, ResistanceOutlet
-from solver.calcification import Patch, scaled_distance
 from solver.errors import ModelError, NotFinite
-from solver.grid import Grid
-from solver.model import uniform_state
-from solver.simulate import simulate
-from solver.steady import steady_state
-from solver.stepper import Stepper, parameters
-from solver.waveform import Waveform, constant, local_minima
+from solver.geometry.calcification import Patch, scaled_distance
+from solver.geometry.grid import Grid
+from solver.marching.row_stepper import Stepper, parameters
+from solver.marching.semi_implicit import simulate
+from solver.marching.steady import steady_state
+from solver.model.boundary import Inlet, ResistanceOutlet
+from solver.model.parameters import uniform_state
+from solver.model.waveform import Waveform, constant, local_minima
 
 
 @pytest.mark.parametrize("n_phi", [4, 84, 100, 164])

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from thesis_artery import PATTERNS, RADIUS, artery
 
-from solver.boundary import Inlet, NonReflectingOutlet
-from solver.model import uniform_state
-from solver.steady import rest_area, steady_state
-from solver.stepper import Stepper
-from solver.waveform import constant
+from solver.marching.row_stepper import Stepper
+from solver.marching.steady import rest_area, steady_state
+from solver.model.boundary import Inlet, NonReflectingOutlet
+from solver.model.parameters import uniform_state
+from solver.model.waveform import constant
 
 
 def held(pressure, pattern, n_x=24, n_phi=8):

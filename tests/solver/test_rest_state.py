@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from thesis_artery import HEALTHY, RADIUS, artery, pressure
 
-from solver.boundary import ResistanceOutlet
-from solver.model import State, uniform_state
-from solver.stepper import Stepper
-from solver.wall import pressure_from_area
+from solver.marching.row_stepper import Stepper
+from solver.model.boundary import ResistanceOutlet
+from solver.model.parameters import State, uniform_state
+from solver.wall.stiffness import pressure_from_area
 
 LOAD = 9330.0
 

@@ -11,8 +11,8 @@ import pytest
 import xarray as xr
 
 import solver.__main__ as command
-import solver.run as running
-from solver.run import pieces_folder
+import solver.runs.resumable as running
+from solver.runs.resumable import pieces_folder
 
 ROOT = Path(__file__).parents[2]
 BOUNDARIES = {

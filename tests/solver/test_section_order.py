@@ -10,12 +10,12 @@ import test_order_of_convergence as by_rows
 from test_order_of_convergence import Resolution, observed_orders
 from test_section_pressure import with_sections
 
-import solver.section_stepper
+import solver.marching.section_stepper
 
 
 @pytest.fixture(autouse=True)
 def _one_pressure_a_section(monkeypatch):
-    monkeypatch.setattr(solver.section_stepper, "TOLERANCE", 1e-10)
+    monkeypatch.setattr(solver.marching.section_stepper, "TOLERANCE", 1e-10)
     monkeypatch.setattr(
         by_rows, "artery", lambda *sizes, **values: with_sections(artery_of_rows(*sizes, **values))
     )

@@ -8,19 +8,19 @@ import pytest
 from test_every_boundary import INLETS, LOAD, OUTLETS, check, wave
 from thesis_artery import DIASTOLE, HEALTHY, PATTERNS, RADIUS, artery, patched, section_flow, thesis_waveform
 
-import solver.stepper
-from solver.boundary import Inlet, PressureOutlet, ResistanceOutlet
-from solver.cross_flow import azimuthal_flux
+import solver.marching.row_stepper
 from solver.errors import BeyondWallTable, ModelError
-from solver.grid import Grid
-from solver.membrane_tables import MembraneWall, section_wall
-from solver.model import uniform_state
-from solver.section_stepper import SectionStepper
-from solver.section_wall import linear_section_wall
-from solver.simulate import implicitness, simulate
-from solver.steady import steady_state
-from solver.stepper import Stepper
-from solver.waveform import FourierSeries, constant
+from solver.geometry.grid import Grid
+from solver.marching.row_stepper import Stepper
+from solver.marching.section_stepper import SectionStepper
+from solver.marching.semi_implicit import implicitness, simulate
+from solver.marching.steady import steady_state
+from solver.model.boundary import Inlet, PressureOutlet, ResistanceOutlet
+from solver.model.cross_flow import azimuthal_flux
+from solver.model.parameters import uniform_state
+from solver.model.waveform import FourierSeries, constant
+from solver.wall.membrane_tables import MembraneWall, section_wall
+from solver.wall.sections import linear_section_wall
 
 PERIOD = thesis_waveform().period
 
@@ -63,7 +63,7 @@ def coupled(tmp_path_factory):
 @pytest.mark.parametrize("inlet", list(INLETS))
 def test_one_row_is_the_1d_model_to_round_off(inlet, outlet, monkeypatch):
     model = artery(24, 1, patch=PATTERNS["axisymmetric, sharp"], inlet=INLETS[inlet], outlet=OUTLETS[outlet])
-    monkeypatch.setattr(solver.stepper, "TOLERANCE", 1e-13)
+    monkeypatch.setattr(solver.marching.row_stepper, "TOLERANCE", 1e-13)
     start = uniform_state(model, LOAD, DIASTOLE)
     rows, sections = Stepper(model, start), SectionStepper(with_sections(model), start, tolerance=1e-13)
     for n in range(20):
@@ -129,7 +129,7 @@ def test_a_steady_flow_is_the_same_through_every_section(coupled, outlet):
     assert np.ptp(section) < 1e-10 * section[0]
     assert np.ptp(state.flow[10]) > 0.01 * np.mean(state.flow)  # rows do differ
     again = SectionStepper(model, state)
-    again.advance(np.full(20, DIASTOLE), 1e-3, 0.52, solver.stepper.offsets(model, np.zeros(20)))
+    again.advance(np.full(20, DIASTOLE), 1e-3, 0.52, solver.marching.row_stepper.offsets(model, np.zeros(20)))
     assert np.max(np.abs(again.state().flow - state.flow)) < 1e-6 * np.max(state.flow)
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solver.errors import ModelError
-from solver.waveform import FourierSeries, Ramped, Scaled, Waveform, constant, load_curve, local_minima
+from solver.model.waveform import FourierSeries, Ramped, Scaled, Waveform, constant, load_curve, local_minima
 
 COEFFICIENTS = st.lists(st.tuples(st.floats(-2, 2), st.floats(-2, 2)), max_size=6)
 

@@ -10,10 +10,10 @@ import pytest
 import xarray as xr
 
 import solver.__main__ as command
-import solver.run as running
+import solver.runs.resumable as running
 from cases.fields import FIELDS
-from solver.diagnostics import Diagnostics
-from solver.run import pieces_folder
+from solver.model.diagnostics import Diagnostics
+from solver.runs.resumable import pieces_folder
 
 ROOT = Path(__file__).parents[2]
 VARIABLES = {

@@ -26,10 +26,10 @@ from thesis_artery import (
     thesis_waveform,
 )
 
-from solver.boundary import ResistanceOutlet
-from solver.model import uniform_state
-from solver.simulate import simulate
-from solver.steady import steady_state
+from solver.marching.semi_implicit import simulate
+from solver.marching.steady import steady_state
+from solver.model.boundary import ResistanceOutlet
+from solver.model.parameters import uniform_state
 
 
 def balance(flow, area, inlet_area, x, viscosity):

@@ -16,10 +16,10 @@ from thesis_artery import (
     thesis_waveform,
 )
 
-from solver.calcification import Patch
-from solver.grid import Grid
-from solver.model import uniform_state
-from solver.simulate import simulate
+from solver.geometry.calcification import Patch
+from solver.geometry.grid import Grid
+from solver.marching.semi_implicit import simulate
+from solver.model.parameters import uniform_state
 
 WAVEFORM = thesis_waveform()
 OUTLETS = pytest.mark.parametrize("outlet", [SECTION_OUTLET, STEADY_OUTLET], ids=["section", "row"])

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from solver.profiles import continuity_exponent, momentum_correction
-from solver.schemes.ends import face_areas
+from solver.model.profiles import continuity_exponent, momentum_correction
 from solver.schemes.layout import FLOW_INLET, NO_ADMISSIBLE_PROFILE, OK, PRESSURE_INLET, VELOCITY_INLET
-from solver.schemes.profile import closure_sources, fixed_sources
+from solver.schemes.rows.ends import face_areas
+from solver.schemes.rows.profile import closure_sources, fixed_sources
 
 KINEMATIC_VISCOSITY = 0.003 / 1060
 MEAN_AREA = 7e-6

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solver.errors import ModelError
-from solver.wall import area_from_pressure, pressure_from_area, wall_stiffness
+from solver.wall.stiffness import area_from_pressure, pressure_from_area, wall_stiffness
 
 RADIUS, THICKNESS, MODULUS = 2.5e-3, 0.5e-3, 0.6e6
 

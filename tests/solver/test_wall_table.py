@@ -13,15 +13,15 @@ from thesis_artery import (
     thesis_waveform,
 )
 
-from cases.case_file import load_case_file
+from cases.reading.case_file import load_case_file
+from solver.case.model import model_of
 from solver.errors import BeyondWallTable, ModelError
-from solver.finite_strain import inflation_curve
-from solver.from_case import model_of
-from solver.grid import Grid
-from solver.model import uniform_state
-from solver.simulate import simulate
-from solver.stepper import Stepper
-from solver.wall_table import MasterCurve, WallTable, wall_table
+from solver.geometry.grid import Grid
+from solver.marching.row_stepper import Stepper
+from solver.marching.semi_implicit import simulate
+from solver.model.parameters import uniform_state
+from solver.wall.finite_strain import inflation_curve
+from solver.wall.table import MasterCurve, WallTable, wall_table
 
 MODULUS = 0.6e6
 LINEAR = MasterCurve(

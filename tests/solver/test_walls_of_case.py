@@ -9,10 +9,10 @@ import pytest
 import xarray as xr
 from test_resume import assert_same_bytes, changed, run  # noqa: F401
 
-from cases.case_file import load_case_file
-from solver.case_run import run_case
+from cases.reading.case_file import load_case_file
+from solver.case.model import default_output_times, model_of
+from solver.case.run import run_case
 from solver.errors import ModelError
-from solver.from_case import default_output_times, model_of
 
 ROOT = Path(__file__).parents[2]
 THIN = "wall: {law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}"

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from thesis_artery import DIASTOLE, thesis_waveform
 
 from solver.errors import ModelError
-from solver.waveform import Waveform, constant, local_minima
+from solver.model.waveform import Waveform, constant, local_minima
 
 speeds = st.integers(-10_000, 10_000).map(lambda tenths_of_a_millimetre: tenths_of_a_millimetre / 10_000)
 

@@ -4,13 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
-from cases.waveform_file import read_waveform
-from solver.boundary import Inlet, ResistanceOutlet
-from solver.calcification import Patch, calcified_stiffness, scaled_distance
-from solver.grid import Grid
-from solver.model import Model
-from solver.wall import pressure_from_area
-from solver.waveform import Waveform, constant
+from cases.values.waveform_file import read_waveform
+from solver.geometry.calcification import Patch, calcified_stiffness, scaled_distance
+from solver.geometry.grid import Grid
+from solver.model.boundary import Inlet, ResistanceOutlet
+from solver.model.parameters import Model
+from solver.model.waveform import Waveform, constant
+from solver.wall.stiffness import pressure_from_area
 
 REFERENCE_DATA = Path(__file__).parents[2] / "reference_data"
 

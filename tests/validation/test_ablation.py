@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 from small_case import ROOT, small_case, written
 
-from cases.case_file import load_case_file
-from cases.wall import MembraneWall
+from cases.reading.case_file import load_case_file
+from cases.sections.wall import MembraneWall
 from solver.errors import ModelError
 from validation import ablation
 from validation.errors import ValidationError

@@ -9,7 +9,7 @@ from comparisons import equal_models, two_models
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cases.comparison import COMPARED_QUANTITIES, RELATIVE_STATISTICS, Band
+from cases.sections.compare import COMPARED_QUANTITIES, RELATIVE_STATISTICS, Band
 from validation.bands import band_rows, judged_value
 from validation.cycle_quantities import CYCLE_QUANTITIES
 

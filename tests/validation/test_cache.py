@@ -14,7 +14,7 @@ from small_case import ROOT, bands, small_case, written
 from tube_plot import write_tube
 from tubes import Tube
 
-from cases.case_file import load_case_file
+from cases.reading.case_file import load_case_file
 from validation import cached_runs, compare
 from validation.alignment import align
 from validation.cache import ABANDONED, Cache, Entry, open_cache

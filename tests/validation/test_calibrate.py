@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from ruamel.yaml import YAML
 from small_case import ROOT, small_case, written
 
-from cases.calibration_file import changed_values, load_calibration
-from cases.case_file import load_case_file
-from cases.numeric_keys import numeric_keys
-from cases.template import case_with
-from solver.batch import run_batch
+from cases.reading.calibration_file import changed_values, load_calibration
+from cases.reading.case_file import load_case_file
+from cases.reading.numeric_keys import numeric_keys
+from cases.reading.template import case_with
+from solver.runs.batch import run_batch
 from validation import calibrate
 from validation.calibrate import calibrated
 from validation.calibrated_case import snippet

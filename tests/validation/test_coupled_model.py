@@ -7,9 +7,9 @@ Every tenth section and all its rows are compared; over all sections and states 
 import numpy as np
 import pytest
 
-from cases.case_file import load_case_file
-from solver.case_run import run_case
-from solver.from_case import grid_of
+from cases.reading.case_file import load_case_file
+from solver.case.model import grid_of
+from solver.case.run import run_case
 from validation.febio_reference import read_febio
 from validation.ladder import models_between
 from validation.rays import rays

@@ -12,7 +12,7 @@ from small_case import bands, small_case, written
 from tube_plot import VARIABLES, write_tube
 from tubes import Tube
 
-from cases.case_file import load_case_file
+from cases.reading.case_file import load_case_file
 from febio_io.errors import FebioError
 from validation.errors import UnusableReferenceError
 from validation.febio_reference import read_febio

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from small_case import small_case, written
 
-from cases.case_file import load_case_file
-from solver.from_case import inlet_signal
+from cases.reading.case_file import load_case_file
+from solver.case.model import inlet_signal
 from validation.curved_section import curved_flow_rate
 from validation.febio_reference import read_febio
 from validation.rays import rays

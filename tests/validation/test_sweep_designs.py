@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from cases.numeric_keys import NumericKey
-from cases.ranges import MODULI
-from cases.values import quantity
+from cases.reading.numeric_keys import NumericKey
+from cases.values.kinds import quantity
+from cases.values.ranges import MODULI
 from validation.sweep.design import Design, points, samples_of
 from validation.sweep.display import Display
 from validation.sweep.parameters import Parameter

@@ -11,11 +11,11 @@ from pandas.testing import assert_frame_equal
 from small_case import small_case, written
 from small_sweep import GRID, records, small_study, study_file, swept
 
-from cases.case_file import load_case_file
+from cases.reading.case_file import load_case_file
 from febio_io.errors import FebioError
 from reports.errors import ReportError
 from reports.sweep.load import load_sweep
-from solver.case_run import run_case
+from solver.case.run import run_case
 from validation import compare
 from validation.errors import ValidationError
 from validation.ladder import coupled_model

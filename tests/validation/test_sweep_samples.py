@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from small_case import READY, small_case
 from small_sweep import small_study
 
-from cases.case_file import load_case_file
-from cases.numeric_keys import numeric_keys
-from cases.template import case_with, load_template
+from cases.reading.case_file import load_case_file
+from cases.reading.numeric_keys import numeric_keys
+from cases.reading.template import case_with, load_template
 from validation.sweep.samples import samples_of_study
 from validation.sweep.spans import ends_of, span_keys
 

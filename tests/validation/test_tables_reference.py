@@ -8,8 +8,8 @@ import pytest
 from ruamel.yaml import YAML
 from small_case import ROOT, written
 
-from cases.case_file import load_case_file
-from solver.from_case import grid_of
+from cases.reading.case_file import load_case_file
+from solver.case.model import grid_of
 from validation import compare
 from validation.comparison import baselines_of
 from validation.errors import UnusableReferenceError

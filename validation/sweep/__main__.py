@@ -9,8 +9,8 @@ from pathlib import Path
 from cases.errors import CaseError
 from febio_io.errors import FebioError
 from reports.errors import ReportError
-from solver.batch import available_threads
 from solver.errors import SolverError
+from solver.runs.batch import available_threads
 from validation.errors import ValidationError
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)

@@ -7,10 +7,10 @@ from typing import Any
 
 import xarray as xr
 
-from cases.schema import Case
-from solver.batch import run_batch
-from solver.model import Model
-from solver.result import CellHistory, cell_dataset
+from cases.sections.case import Case
+from solver.model.parameters import Model
+from solver.runs.batch import run_batch
+from solver.runs.result import CellHistory, cell_dataset
 from validation.ladder import coupled_model
 from validation.reduced_model import change_of, run_times
 from validation.sweep.judging import Standard, instants_of, judged_values

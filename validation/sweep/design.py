@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from pydantic import model_validator
 from scipy.stats import qmc
 
-from cases.section import Section
-from cases.values import one_of, refused, whole_number
+from cases.sections.base import Section
+from cases.values.kinds import one_of, refused, whole_number
 from validation.sweep.parameters import Parameter
 
 Floats = NDArray[np.float64]

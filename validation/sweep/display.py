@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from cases.units import DIMENSION_OF_UNIT, NUMBER, parse_quantity
+from cases.values.units import DIMENSION_OF_UNIT, NUMBER, parse_quantity
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cases.comparison import Band, ComparedQuantity
 from cases.fields import FIELDS
-from cases.schema import Case
-from solver.from_case import grid_of
+from cases.sections.case import Case
+from cases.sections.compare import Band, ComparedQuantity
+from solver.case.model import grid_of
 from validation.bands import judged_value
 from validation.cache import Cache
 from validation.cached_runs import cached_reference

@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from cases.comparison import Band
 from cases.fields import FIELDS, Field
-from cases.schema import Case, LocalCalcification, NoCalcification
+from cases.sections.case import Case, LocalCalcification, NoCalcification
+from cases.sections.compare import Band
 from validation.cycle_quantities import CYCLE_QUANTITIES
 from validation.sweep.judging import Against, judged_bands
 

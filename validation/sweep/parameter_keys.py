@@ -5,11 +5,11 @@ from collections.abc import Callable, Iterable, Mapping
 import numpy as np
 
 from cases.errors import CaseError, Problem, QuantityError, RefusedValueError
-from cases.numeric_keys import NumericKey
-from cases.units import DIMENSION_OF_UNIT, parse_quantity, parse_ratio
-from cases.values import refused
-from cases.wording import but_allowed, choices, nearest, not_one_of, shown, unknown_key
-from cases.yaml_nodes import Node
+from cases.reading.numeric_keys import NumericKey
+from cases.reading.yaml_nodes import Node
+from cases.values.kinds import refused
+from cases.values.units import DIMENSION_OF_UNIT, parse_quantity, parse_ratio
+from cases.values.wording import but_allowed, choices, nearest, not_one_of, shown, unknown_key
 from validation.sweep.display import display_of
 from validation.sweep.labels import label_of
 from validation.sweep.parameters import MOST_VALUES, NEEDED, OPTIONAL, SPREAD, Floats, Parameter

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from cases.numeric_keys import NumericKey
+from cases.reading.numeric_keys import NumericKey
 from validation.sweep.display import Display
 
 Floats = NDArray[np.float64]

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cases.errors import CaseFileError
-from cases.numeric_keys import NumericKey
-from cases.schema import Case
-from cases.template import case_with
-from cases.yaml_nodes import Scalar
+from cases.reading.numeric_keys import NumericKey
+from cases.reading.template import case_with
+from cases.reading.yaml_nodes import Scalar
+from cases.sections.case import Case
 from validation.sweep.design import points
 from validation.sweep.spans import CENTRE, EXTENT, ends_of
 from validation.sweep.study import Study

@@ -4,12 +4,12 @@ import math
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
-from cases.calcification import Part, SeveralCalcifications
-from cases.numeric_keys import NumericKey
-from cases.ranges import ANGLES, POSITIONS, SIZES, Range
-from cases.schema import Case
-from cases.values import ValueKind, quantity
-from cases.yaml_nodes import join
+from cases.reading.numeric_keys import NumericKey
+from cases.reading.yaml_nodes import join
+from cases.sections.calcification import Part, SeveralCalcifications
+from cases.sections.case import Case
+from cases.values.kinds import ValueKind, quantity
+from cases.values.ranges import ANGLES, POSITIONS, SIZES, Range
 
 FULL_TURN = 2.0 * math.pi
 CENTRE, EXTENT = "centre", "extent"

@@ -7,14 +7,15 @@ from typing import Annotated
 
 from pydantic import Field
 
-from cases.case_file import check_section, load_case_file, part_of, unknown_keys
 from cases.errors import CaseFileError, Problem
-from cases.file_kinds import require_kind
-from cases.numeric_keys import NumericKey, numeric_keys
-from cases.schema import Case
-from cases.section import Section
-from cases.template import Template, check, load_template
-from cases.values import (
+from cases.reading.case_file import check_section, load_case_file, part_of, unknown_keys
+from cases.reading.file_kinds import require_kind
+from cases.reading.numeric_keys import NumericKey, numeric_keys
+from cases.reading.template import Template, check, load_template
+from cases.reading.yaml_nodes import Node, parse_yaml, read_text
+from cases.sections.base import Section
+from cases.sections.case import Case
+from cases.values.kinds import (
     Context,
     ExistingFile,
     Name,
@@ -25,8 +26,7 @@ from cases.values import (
     refused,
     whole_number,
 )
-from cases.wording import but_allowed, choices, nearest, not_one_of, shown
-from cases.yaml_nodes import Node, parse_yaml, read_text
+from cases.values.wording import but_allowed, choices, nearest, not_one_of, shown
 from validation.sweep.design import Design, misfit
 from validation.sweep.judging import Against, unfit_for_judging
 from validation.sweep.outputs import Output, offered_outputs

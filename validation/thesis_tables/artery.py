@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from solver.calcification import Patch
-from solver.godunov import march_to_steady, thesis_criteria
-from solver.godunov_setup import Setup, State, held, load, reference_state, repeated
-from solver.grid import Grid
-from solver.smooth_wall import smooth_wall
-from solver.waveform import Waveform
+from solver.geometry.calcification import Patch
+from solver.geometry.grid import Grid
+from solver.marching.godunov import march_to_steady, thesis_criteria
+from solver.marching.godunov_setup import Setup, State, held, load, reference_state, repeated
+from solver.model.waveform import Waveform
+from solver.wall.smooth_patch import smooth_wall
 
 REFERENCE_DATA = Path(__file__).parents[2] / "reference_data"
 

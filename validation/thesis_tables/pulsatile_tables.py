@@ -4,9 +4,9 @@ from functools import partial
 
 import numpy as np
 
-from solver.calcification import Patch
-from solver.godunov import march, march_to_steady, thesis_criteria
-from solver.godunov_setup import held, repeated
+from solver.geometry.calcification import Patch
+from solver.marching.godunov import march, march_to_steady, thesis_criteria
+from solver.marching.godunov_setup import held, repeated
 from validation.thesis_tables.artery import (
     CM3,
     FINE_STEP,

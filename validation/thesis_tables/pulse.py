@@ -13,8 +13,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from solver.godunov import march
-from solver.godunov_setup import reference_state
+from solver.marching.godunov import march
+from solver.marching.godunov_setup import reference_state
 from validation.thesis_tables.artery import HEALTHY, LENGTH, RADIUS, artery
 from validation.thesis_tables.experiment import Entry, Experiment, Result, Results, Row, number, numbers
 from validation.thesis_tables.simple_wave import area_error

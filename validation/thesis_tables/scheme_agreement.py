@@ -9,14 +9,14 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.boundary import Inlet, ResistanceOutlet
-from solver.calcification import Patch
-from solver.columns import columns_of
-from solver.godunov import march
-from solver.godunov_setup import Setup, State, held
-from solver.model import Model
-from solver.simulate import simulate
-from solver.steady import steady_state
+from solver.geometry.calcification import Patch
+from solver.marching.columns import columns_of
+from solver.marching.godunov import march
+from solver.marching.godunov_setup import Setup, State, held
+from solver.marching.semi_implicit import simulate
+from solver.marching.steady import steady_state
+from solver.model.boundary import Inlet, ResistanceOutlet
+from solver.model.parameters import Model
 from validation.thesis_tables.artery import (
     DENSITY,
     DIASTOLE,

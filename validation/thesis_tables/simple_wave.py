@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.godunov import march
-from solver.godunov_setup import State, held
+from solver.marching.godunov import march
+from solver.marching.godunov_setup import State, held
 from validation.thesis_tables.artery import DENSITY, HEALTHY, LENGTH, RADIUS, artery
 
 Floats = NDArray[np.float64]

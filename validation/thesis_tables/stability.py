@@ -12,8 +12,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from solver.errors import RunFailure
-from solver.godunov import march, march_to_steady, thesis_criteria
-from solver.godunov_setup import held, load, reference_state
+from solver.marching.godunov import march, march_to_steady, thesis_criteria
+from solver.marching.godunov_setup import held, load, reference_state
 from validation.thesis_tables.artery import DIASTOLE, QUARTER_CM, STEADY_OUTLET, artery, quoted, ring
 from validation.thesis_tables.experiment import Entry, Experiment, Number, Result, Results, Row, numbers
 

@@ -7,7 +7,7 @@ number belongs to the outlet of its pulsatile runs, 7205.2 Pa and 5.7817e9 Pa s/
 import numpy as np
 from scipy.optimize import brentq
 
-from solver.godunov_setup import State
+from solver.marching.godunov_setup import State
 from validation.thesis_tables.artery import (
     CM3,
     DENSITY,

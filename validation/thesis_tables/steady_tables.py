@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from scipy.stats import linregress
 
-from solver.godunov import march_to_steady, thesis_criteria
-from solver.godunov_setup import Setup, State, load, reference_state, repeated
+from solver.marching.godunov import march_to_steady, thesis_criteria
+from solver.marching.godunov_setup import Setup, State, load, reference_state, repeated
 from validation.thesis_tables.artery import (
     DIASTOLE,
     FINE_STEP,

@@ -1,0 +1,1 @@
+"""From YAML with its line numbers to checked cases, and from what is wrong to messages."""

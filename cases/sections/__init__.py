@@ -1,0 +1,1 @@
+"""The sections of a case file, a module each, and the case that they make up; values are in SI."""

@@ -1,0 +1,52 @@
+"""The error of taking a membrane's section to answer its own pressure alone, after a run."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cases.sections.case import Case
+from solver.case.stiffness import wall_on_grid
+from solver.case.wall import has_section_pressure, membrane_of
+from solver.geometry.grid import Grid
+from solver.wall.membrane_tables import locality_error
+from solver.wall.sections import SectionWall
+
+LARGEST = 1e-3  # share of the radius beyond which the assumption fails
+
+Floats = NDArray[np.float64]
+
+
+def widest(pressure: Floats) -> Floats:
+    """Section pressures (n_x,) at the instant at which they vary most along the artery.
+
+    Parameters
+    ----------
+    pressure : ndarray (n_times, n_x, n_phi)
+        Pa.
+    """
+    sections = pressure[..., 0]
+    return np.asarray(sections[int(np.argmax(np.ptp(sections, axis=1)))])
+
+
+def wall_locality_error(case: Case, tables: SectionWall | None, pressure: Floats) -> float | None:
+    """Largest relative error of R in a state, (n_x,) section pressures in Pa; None where nothing is assumed.
+
+    Tables reach below P₀ by continuation only: a state there is not judged.
+    """
+    grid = Grid(case.geometry.length, case.solver.n_x, case.solver.n_phi)
+    own = wall_on_grid(case, grid)
+    membrane = membrane_of(case, grid, own)
+    if membrane is None or tables is None or not has_section_pressure(case):
+        return None
+    if np.min(pressure) <= own.reference_pressure:
+        return None
+    return locality_error(membrane, tables, pressure)
+
+
+def locality_warning(error: float | None) -> str | None:
+    """Say that the assumption fails; None where it holds."""
+    if error is None or error <= LARGEST:
+        return None
+    return (
+        f"the membrane's radius is off by up to {error:.2%}: the pressure varies too much along the artery "
+        "for a section's shape to follow from its own pressure alone (docs/coupled_model.md)"
+    )

@@ -1,0 +1,87 @@
+"""A run of the semi-implicit scheme that nothing watches: no diagnostics, no row that another stands for."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cases.sections.case import Case
+from solver.case.model import error_tolerance, initial_state
+from solver.case.semi_implicit import azimuthal_flux_of
+from solver.geometry.symmetry import all_rows, fewer_rows
+from solver.marching.choice import stepper_of
+from solver.marching.semi_implicit import equal_steps, implicitness
+from solver.marching.walk import require_exponents
+from solver.model.parameters import Model
+from solver.runs.result import CellHistory
+from solver.schemes.rows.balance import closed_exponents
+
+Floats = NDArray[np.float64]
+
+
+def is_plain(case: Case) -> bool:
+    """Whether a case takes equal steps of the semi-implicit scheme and limits no diagnostic."""
+    return (
+        case.solver.scheme == "semi_implicit" and case.solver.limits is None and error_tolerance(case) is None
+    )
+
+
+def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], None]) -> CellHistory:
+    """States of a plain case at its output times (n,), s; without diagnostics.
+
+    The steps are those of :func:`solver.marching.semi_implicit.snapshots`, and so are the bits, except where
+    rows stand for others (:func:`solver.geometry.symmetry.fewer_rows`): that differs by round-off.
+
+    Parameters
+    ----------
+    case : Case
+    model : Model
+        Of the case.
+    times : ndarray (n,)
+        Increasing; the first is where the run starts.
+    reached : callable
+        Called at each of them.
+
+    Raises
+    ------
+    SolverError
+        As the march to the steady start and the scheme raise it.
+    """
+    grid, computed = model.grid, fewer_rows(model)
+    n_phi = computed.grid.n_phi
+    area, pressure = (np.empty((times.size, grid.n_x, n_phi)) for _ in range(2))
+    flow = np.empty((times.size, grid.n_x + 1, n_phi))
+    crossing = None if model.section_wall is None else np.empty(area.shape)
+    stepper = stepper_of(computed, initial_state(case, computed))
+    for n, end in enumerate(times.tolist()):
+        if n > 0:
+            time_step, count = equal_steps(stepper.time, end, case.solver.time_step)
+            stepper.advance_through(stepper.time, time_step, count, implicitness(time_step))
+        stepper.time = end
+        state = stepper.state()
+        area[n], flow[n], pressure[n] = state.area, state.flow, state.pressure
+        if crossing is not None:
+            crossing[n] = azimuthal_flux_of(model, state)
+        reached()
+    through = 0.5 * (flow[:, 1:] + flow[:, :-1])
+    exponent = _exponents(computed, area, through)
+    require_exponents(times, exponent)
+    return CellHistory(
+        times=times,
+        area=all_rows(area, grid.n_phi),
+        flow=all_rows(through, grid.n_phi),
+        pressure=all_rows(pressure, grid.n_phi),
+        exponent=all_rows(exponent, grid.n_phi),
+        diagnostics={},
+        azimuthal_flux=crossing,
+    )
+
+
+def _exponents(model: Model, area: Floats, flow: Floats) -> Floats:
+    """γ of cells (n, n_x, n_phi); NaN where none is admissible."""
+    if model.fixed_exponent is not None:
+        return np.full(area.shape, model.fixed_exponent)
+    exponent = np.empty(area.shape)
+    rows = (-1, area.shape[-1])
+    closed_exponents(area.reshape(rows), flow.reshape(rows), exponent.reshape(rows))
+    return exponent

@@ -1,0 +1,67 @@
+"""A checked case run with the semi-implicit scheme."""
+
+from collections.abc import Iterator
+from dataclasses import fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cases.sections.case import Case
+from solver.case.model import error_tolerance, initial_state, monitor_of
+from solver.marching.semi_implicit import Snapshot, snapshots
+from solver.marching.walk import Kept, Stop
+from solver.model.cross_flow import azimuthal_flux
+from solver.model.parameters import Model, State
+
+
+def walk_semi_implicit(
+    case: Case, model: Model, times: NDArray[np.float64], kept: Kept | None = None
+) -> Iterator[Stop]:
+    """Run a case through ``times`` (s); the first is where it starts, or where ``kept`` was left.
+
+    Raises
+    ------
+    SolverError
+        As the march to the steady start, the scheme and the case's limits raise it.
+    """
+    start = initial_state(case, model) if kept is None else _state(kept)
+    first_step = None if kept is None else float(kept["next_step"])
+    monitor = monitor_of(case, model, None if kept is None else kept["history"])
+    limit = error_tolerance(case)
+    for snapshot in snapshots(model, times, case.solver.time_step, start, limit, first_step, monitor):
+        yield Stop(
+            snapshot.state.time,
+            snapshot.columns,
+            snapshot.diagnostics,
+            snapshot.steps,
+            snapshot.sweeps,
+            snapshot.longest_step,
+            {**_kept(snapshot), "history": monitor.history},
+            azimuthal_flux_of(model, snapshot.state),
+        )
+
+
+def azimuthal_flux_of(model: Model, state: State) -> NDArray[np.float64] | None:
+    """W of the cells, m²/s; None where rows keep their own blood."""
+    if model.section_wall is None or state.pressure is None:
+        return None
+    return azimuthal_flux(
+        model.section_wall, model.grid.dx, model.grid.dphi, state.pressure[:, 0], state.flow
+    )
+
+
+def _kept(snapshot: Snapshot) -> Kept:
+    state = {part.name: np.asarray(getattr(snapshot.state, part.name)) for part in fields(State)}
+    return {**state, "next_step": np.asarray(snapshot.next_step)}
+
+
+def _state(kept: Kept) -> State:
+    return State(
+        float(kept["time"]),
+        kept["area"],
+        kept["flow"],
+        kept["pressure"],
+        kept["inlet_pressure"],
+        kept["outlet_pressure"],
+        float(kept["reservoir"]),
+    )

@@ -1,0 +1,104 @@
+"""From a checked case to the wall that the flow sees: of rows or of sections, of springs or of a membrane."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cases.sections.case import Case
+from cases.sections.solver import SemiImplicitSolver
+from cases.sections.wall import LayeredWall, MembraneWall, OwnWall, row_wall
+from solver.case.stiffness import WallOnGrid, modulus_on_grid, wall_on_grid
+from solver.geometry.grid import Grid
+from solver.wall import membrane_tables
+from solver.wall.sections import SectionWall, linear_section_wall, row_table, tabulated_section_wall
+from solver.wall.table import WallTable
+
+NONLINEAR_GROWTH = 0.25  # R/R₀ − 1 of the softest row of a nonlinear base at the highest pressure
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Walls:
+    """β of the row law in every cell, Pa m, P₀, Pa, and tables: of rows, or of sections."""
+
+    stiffness: Floats
+    reference_pressure: float
+    of_rows: WallTable | None = None
+    of_sections: SectionWall | None = None
+
+
+def has_section_pressure(case: Case) -> bool:
+    """Whether a case asks for one pressure a section."""
+    return isinstance(case.solver, SemiImplicitSolver) and case.solver.pressure == "section"
+
+
+def walls_of(case: Case, grid: Grid) -> Walls:
+    """Wall of a case.
+
+    Raises
+    ------
+    ModelError
+        If the law is known for no pressure of interest, or a membrane buckles or folds.
+    """
+    own = wall_on_grid(case, grid)
+    membrane = membrane_of(case, grid, own)
+    known = own.stiffness, own.reference_pressure
+    if membrane is not None:
+        table = membrane_tables.section_wall(membrane)
+        if has_section_pressure(case):
+            return Walls(*known, of_sections=table)
+        return Walls(*known, of_rows=row_table(table))
+    if not has_section_pressure(case):
+        return Walls(*known, of_rows=own.table)
+    if own.table is not None:
+        return Walls(*known, of_sections=tabulated_section_wall(own.table))
+    table = linear_section_wall(own.stiffness, case.geometry.radius, own.reference_pressure)
+    return Walls(*known, of_sections=table)
+
+
+def membrane_of(case: Case, grid: Grid, own: WallOnGrid) -> membrane_tables.MembraneWall | None:
+    """Return the membrane of a case whose rows by themselves are ``own``; None for another wall."""
+    wall, radius = case.wall, case.geometry.radius
+    if not isinstance(wall, MembraneWall):
+        return None
+    highest = membrane_tables.HIGHEST_GROWTH * float(np.min(own.stiffness)) / radius
+    if own.table is not None:
+        highest = min(highest, _load_of_growth(own.table, radius, own.reference_pressure))
+
+    def secant_stiffness(load: float) -> Floats:
+        if own.table is None:
+            return own.stiffness
+        pressure = np.full(own.stiffness.shape, own.reference_pressure + load)
+        return np.asarray(load * radius**2 / (np.sqrt(own.table.area(pressure)) - radius))
+
+    return membrane_tables.MembraneWall(
+        grid=grid,
+        radius=radius,
+        reference_pressure=own.reference_pressure,
+        stiffness=secant_stiffness,
+        shear=_shear_stiffness(case, grid, row_wall(wall), wall.poisson_ratio),
+        supports=wall.supports,
+        highest_load=highest,
+    )
+
+
+def _load_of_growth(table: WallTable, radius: float, reference_pressure: float) -> float:
+    """Largest tabulated load up to which every row's radius grows moderately, Pa; beyond it may run away."""
+    pressures = table.start + table.step * np.arange(table.values.shape[2])
+    moderate = np.max(table.values[..., 0], axis=(0, 1)) <= (1 + NONLINEAR_GROWTH) * radius
+    return float(np.max(pressures[moderate]) - reference_pressure)
+
+
+def _shear_stiffness(case: Case, grid: Grid, wall: OwnWall, poisson_ratio: float) -> Floats:
+    """S = Σ G h of the wall's layers, G = E/(2(1 + ν)), N/m."""
+    if isinstance(wall, LayeredWall):
+        moduli = sum(
+            layer.thickness
+            * (modulus_on_grid(case, grid, layer.youngs_modulus) if layer.calcifies else layer.youngs_modulus)
+            for layer in wall.layers
+        )
+    else:
+        moduli = case.geometry.wall_thickness * modulus_on_grid(case, grid, wall.youngs_modulus)
+    return np.broadcast_to(np.asarray(moduli) / (2 * (1 + poisson_ratio)), (grid.n_x, grid.n_phi)).copy()

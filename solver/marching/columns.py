@@ -1,0 +1,50 @@
+"""A state of the staggered scheme on the columns inlet, cells, outlet."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.model.diagnostics import Columns
+from solver.model.parameters import Model, State
+from solver.schemes.rows.balance import closed_exponents
+from solver.schemes.walls import tabulated_area
+from solver.wall.stiffness import area_from_pressure
+
+Floats = NDArray[np.float64]
+
+
+def columns_of(model: Model, state: State) -> Columns:
+    """Return A, Q, γ and P on inlet, cells and outlet; γ is NaN where none is admissible.
+
+    At the inlet A is extrapolated, and so is P unless it is prescribed; at the outlet P belongs to the state
+    and A follows from the last cell's wall.
+    """
+    pressure = model.pressure(state.area) if state.pressure is None else state.pressure
+    outlet = pressure[-1] if state.outlet_pressure is None else state.outlet_pressure
+    inlet = 1.5 * pressure[0] - 0.5 * pressure[1]
+    if model.inlet.kind == "pressure" and state.inlet_pressure is not None:
+        inlet = state.inlet_pressure
+    shape = (model.grid.n_x + 2, model.grid.n_phi)
+    area, flow, exponent, load = (np.empty(shape) for _ in Columns._fields)
+    area[0], area[1:-1] = 1.5 * state.area[0] - 0.5 * state.area[1], state.area
+    area[-1] = outlet_area(model, outlet)
+    flow[0], flow[-1] = state.flow[0], state.flow[-1]
+    np.multiply(state.flow[1:] + state.flow[:-1], 0.5, out=flow[1:-1])
+    load[0], load[1:-1], load[-1] = inlet, pressure, outlet
+    if model.fixed_exponent is None:
+        closed_exponents(area, flow, exponent)
+    else:
+        exponent[:] = model.fixed_exponent
+    return Columns(area, flow, exponent, load)
+
+
+def outlet_area(model: Model, pressure: Floats) -> Floats:
+    """Return A at pressures (n_phi,) behind the last cells, m²."""
+    if model.section_wall is not None:
+        return np.asarray(model.section_wall.last.area(pressure[:1])[0])
+    table = model.wall_table
+    if table is None:
+        return area_from_pressure(pressure, model.stiffness[-1], model.radius, model.reference_pressure)
+    area, slope = np.empty((1, pressure.size)), np.empty((1, pressure.size))
+    within = np.clip(pressure, table.start, table.end)[None]
+    tabulated_area(within, table.values[-1:], table.start, table.step, area, slope)
+    return np.asarray(area[0])

@@ -1,0 +1,169 @@
+"""Steady states: by marching with large implicit steps, and in closed form."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from solver.errors import ModelError, NotSteady, RunFailure
+from solver.marching.choice import stepper_of
+from solver.marching.row_stepper import offsets
+from solver.model.boundary import NonReflectingOutlet, ResistanceOutlet
+from solver.model.parameters import Model, State, uniform_state
+from solver.schemes.layout import REST_VELOCITY
+
+FIRST_STEP, SHORTEST_STEP, LONGEST_STEP, GROWTH = 1e-3, 1e-5, 0.1, 1.5  # s, s, s, –
+MOST_STEPS = 20_000
+
+Floats = NDArray[np.float64]
+
+
+def _guess(model: Model, inlet_value: float) -> State:
+    """Uniform state near the steady one."""
+    offset = float(offsets(model, [0.0])[0])
+    kind = model.inlet.kind
+    section = np.pi * model.radius**2
+    velocity = inlet_value if kind == "velocity" else inlet_value / section if kind == "flow" else 0.0
+    if isinstance(model.outlet, ResistanceOutlet):
+        return uniform_state(model, offset + model.outlet.resistance * velocity * section, velocity)
+    if kind == "pressure":
+        return uniform_state(model, inlet_value, velocity)
+    if isinstance(model.outlet, NonReflectingOutlet):
+        return uniform_state(model, model.reference_pressure, velocity)
+    venous = getattr(model.outlet, "venous_pressure", offset)
+    drop = getattr(model.outlet, "proximal_resistance", 0.0) + getattr(model.outlet, "distal_resistance", 0.0)
+    return uniform_state(model, venous + drop * velocity * section, velocity)
+
+
+def steady_state(model: Model, inlet_value: float, start: State | None = None) -> State:
+    """March to the state that a constant inlet value leads to.
+
+    Fully implicit steps that grow from 1 ms, until nothing changes any more; a step that fails is halved, and
+    none is longer after it. The outlet's prescribed pressure is that of time 0.
+
+    Parameters
+    ----------
+    model : Model
+    inlet_value : float
+        v (m/s), q (m³/s) or P (Pa), by the inlet's kind.
+    start : State, optional
+        Where to march from; default: a uniform state.
+
+    Raises
+    ------
+    ModelError
+        If the wall law has no state near the steady one.
+    RunFailure
+        NotSteady when 20,000 steps do not suffice, or what a step of 10 µs raises; the message says that
+        this happened on the way to the steady state.
+    """
+    stepper = stepper_of(model, start.copy() if start else _guess(model, inlet_value))
+    value, offset = np.array([inlet_value]), offsets(model, [0.0])
+    time_step, longest = FIRST_STEP, LONGEST_STEP
+    state = stepper.state()
+    for _ in range(MOST_STEPS):
+        try:
+            stepper.advance(value, time_step, 1.0, offset)
+        except RunFailure as failure:
+            if time_step < 2 * SHORTEST_STEP:
+                detail = (
+                    f"on the march to the steady state, whose time this is, in steps of {time_step:.2g} s too"
+                )
+                raise type(failure)(failure.time, failure.i, failure.j, detail) from failure
+            stepper.restore(state)
+            time_step = longest = 0.5 * time_step
+            continue
+        before, state = state, stepper.state()
+        if _settled(model, before, state, time_step):
+            state.time = 0.0
+            return state
+        time_step = min(GROWTH * time_step, longest)
+    raise NotSteady(stepper.time, 0, 0, f"{MOST_STEPS} steps of the march to it do not suffice")
+
+
+def _settled(model: Model, before: State, after: State, time_step: float) -> bool:
+    """Whether a step changed nothing beyond round-off; Δt/Δx ΔQ adds that of Q to the area."""
+    rest = REST_VELOCITY * 1e-3 * model.radius**2
+    fastest, widest = float(np.max(np.abs(after.flow))), float(np.max(after.area))
+    round_off = 8 * np.finfo(float).eps * time_step / model.grid.dx * fastest
+    area_change = np.max(np.abs(after.area - before.area))
+    flow_change = np.max(np.abs(after.flow - before.flow))
+    old, new = (model.pressure(s.area) if s.pressure is None else s.pressure for s in (before, after))
+    load_change = np.max(np.abs(new - old))  # in a stiff wall the area hardly shows it
+    return bool(
+        area_change < 1e-13 * widest + round_off
+        and flow_change <= 1e-12 * fastest + rest
+        and load_change <= 1e-11 * np.max(np.abs(new)) + 1e-9
+    )
+
+
+def rest_area(stiffness: Floats, inlet_pressure: float, radius: float, reference_pressure: float) -> Floats:
+    """Steady A(x, φ) of a pressure inlet and a non-reflecting outlet: Q = 0, P constant (2.2.63), m².
+
+    Parameters
+    ----------
+    stiffness : ndarray (n_x, n_phi)
+        β, Pa m; may jump.
+    inlet_pressure : float
+        Pa.
+    radius, reference_pressure : float
+        R₀, m, and P₀, Pa.
+    """
+    return np.asarray((radius + (inlet_pressure - reference_pressure) * radius**2 / stiffness) ** 2)
+
+
+def momentum_balance(
+    area: Floats | float, flow: float, inlet_area: float, stiffness: float, radius: float, density: float
+) -> Floats:
+    """Left side of (2.2.68) for γ = 2: β/(5ρA₀)(A^{5/2} − A_in^{5/2}) − (4/3)Q² ln(A/A_in), m⁶/s²·m⁻¹ × m."""
+    elastic = stiffness / (5 * density * radius**2) * (np.power(area, 2.5) - inlet_area**2.5)
+    return np.asarray(elastic - 4 / 3 * flow**2 * np.log(np.asarray(area) / inlet_area))
+
+
+def uniform_flow(model: Model, velocity: float) -> float:
+    """Steady Q = uR² of a velocity inlet and a per-row resistance outlet, uniform β, γ = 2 (2.2.69), m³/s.
+
+    The physiological root: the one next to A₀ v.
+
+    Raises
+    ------
+    ModelError
+        For another outlet, a nonlinear wall or a wall that varies.
+    """
+    outlet = model.outlet
+    if not (isinstance(outlet, ResistanceOutlet) and outlet.flow == "row") or model.wall_table is not None:
+        raise ModelError("the closed form needs a per-row resistance outlet and a linear wall")
+    beta = float(model.stiffness.flat[0])
+    if not np.allclose(model.stiffness, beta, rtol=1e-12):
+        raise ModelError("the closed form needs a uniform wall")
+    offset = float(offsets(model, [0.0])[0])
+
+    def defect(flow: float) -> float:
+        load = offset + outlet.resistance * flow - model.reference_pressure
+        outlet_area = (model.radius + load * model.radius**2 / beta) ** 2
+        balance = momentum_balance(outlet_area, flow, flow / velocity, beta, model.radius, model.density)
+        return float(balance + 8 * model.viscosity / model.density * flow * model.grid.length)
+
+    guess = velocity * model.radius**2
+    return float(brentq(defect, 0.2 * guess, 5 * guess, xtol=1e-30, rtol=1e-14))
+
+
+def uniform_area(model: Model, velocity: float, x: Floats) -> Floats:
+    """Steady A(x) that belongs to :func:`uniform_flow`, (2.2.68), m²."""
+    flow = uniform_flow(model, velocity)
+    inlet, beta = flow / velocity, float(model.stiffness.flat[0])
+
+    def area_at(position: float) -> float:
+        friction = 8 * model.viscosity / model.density * flow * position
+        return float(
+            brentq(
+                lambda area: float(
+                    momentum_balance(area, flow, inlet, beta, model.radius, model.density) + friction
+                ),
+                0.5 * inlet,
+                2 * inlet,
+                xtol=1e-30,
+                rtol=1e-14,
+            )
+        )
+
+    return np.array([area_at(float(position)) for position in np.atleast_1d(x)])

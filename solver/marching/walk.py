@@ -1,0 +1,81 @@
+"""Stops of a run, alike for both schemes: what is saved there, and what the run needs to go on."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.errors import NoAdmissibleProfile
+from solver.model.diagnostics import Columns, Diagnostics, by_name
+from solver.runs.result import CellHistory
+
+Floats = NDArray[np.float64]
+Kept = dict[str, Floats]
+
+
+class Stop(NamedTuple):
+    """One saved state of a run.
+
+    Attributes
+    ----------
+    time : float
+        s.
+    columns : Columns
+        The state on inlet, cells and outlet.
+    diagnostics : Diagnostics
+    steps, sweeps : int
+        Time steps since the run began or was resumed, and sweeps of their iterations.
+    longest_step : float
+        Longest Δt since the stop before, s.
+    kept : dict of ndarray
+        What the scheme needs to go on from here, by name.
+    azimuthal_flux : ndarray (n_x, n_phi) or None
+        W of the cells where rows exchange blood, m²/s.
+    """
+
+    time: float
+    columns: Columns
+    diagnostics: Diagnostics
+    steps: int
+    sweeps: int
+    longest_step: float
+    kept: Kept
+    azimuthal_flux: Floats | None = None
+
+
+def require_exponents(times: Floats, exponent: Floats) -> None:
+    """Refuse states, at times (n,), s, of which a cell has no exponent; (n, n_x, n_phi), NaN where none is.
+
+    Raises
+    ------
+    NoAdmissibleProfile
+        With the first such state and cell.
+    """
+    missing = np.argwhere(~np.isfinite(exponent))
+    if missing.size:
+        n, i, j = (int(k) for k in missing[0])
+        raise NoAdmissibleProfile(float(times[n]), i + 1, j + 1)
+
+
+def history_of(stops: Sequence[Stop]) -> CellHistory:
+    """States of the cells at stops.
+
+    Raises
+    ------
+    NoAdmissibleProfile
+        Where a cell has no exponent γ > 0.
+    """
+    times = np.array([stop.time for stop in stops])
+    exponent = np.array([stop.columns.exponent[1:-1] for stop in stops])
+    require_exponents(times, exponent)
+    crossing = [stop.azimuthal_flux for stop in stops if stop.azimuthal_flux is not None]
+    return CellHistory(
+        times=times,
+        area=np.array([stop.columns.area[1:-1] for stop in stops]),
+        flow=np.array([stop.columns.flow[1:-1] for stop in stops]),
+        pressure=np.array([stop.columns.pressure[1:-1] for stop in stops]),
+        exponent=exponent,
+        diagnostics=by_name([stop.diagnostics for stop in stops]),
+        azimuthal_flux=np.array(crossing) if crossing else None,
+    )

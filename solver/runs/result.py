@@ -1,0 +1,80 @@
+"""A finished run as an xarray dataset with CF-style names and units."""
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from cases.fields import FIELDS
+from solver.model.parameters import Model
+
+CONVENTIONS = "CF-1.11"
+
+
+def coordinates(time: NDArray[np.float64], x: NDArray[np.float64], phi: NDArray[np.float64]) -> xr.Dataset:
+    """Dataset that holds only the coordinates time (s), x (m) and phi (rad)."""
+    return xr.Dataset(
+        coords={
+            "time": ("time", time, {"units": "s", "long_name": "time"}),
+            "x": ("x", x, {"units": "m", "long_name": "distance from the inlet"}),
+            "phi": ("phi", phi, {"units": "rad", "long_name": "azimuthal angle"}),
+        }
+    )
+
+
+def described(name: str, values: NDArray[np.float64]) -> xr.Variable:
+    """Values as a variable with the dimensions, unit and words of the table of fields."""
+    field = FIELDS[name]
+    return xr.Variable(
+        field.dims, values, {"units": field.unit, "long_name": field.label, "symbol": field.symbol}
+    )
+
+
+class CellHistory(NamedTuple):
+    """States at cell centres: times (n,), s; A, m², Q, m³/s, P, Pa, γ (n, n_x, n_phi); diagnostics (n,).
+
+    W, m²/s, (n, n_x, n_phi), where rows exchange blood.
+    """
+
+    times: NDArray[np.float64]
+    area: NDArray[np.float64]
+    flow: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    exponent: NDArray[np.float64]
+    diagnostics: dict[str, NDArray[np.float64]]
+    azimuthal_flux: NDArray[np.float64] | None = None
+
+
+def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
+    """Fields of a run at cell centres.
+
+    Returns
+    -------
+    xarray.Dataset
+        pressure, radius, mean_velocity, profile_exponent, sector_flow_rate on (time, x, phi), and
+        azimuthal_flux where rows exchange blood; section_flow_rate, section_pressure on (time, x);
+        wall_stiffness on (x, phi); the diagnostics on (time). SI.
+    """
+    sector = 0.5 * model.grid.dphi * cells.flow
+    fields = {
+        "pressure": cells.pressure,
+        "radius": np.sqrt(cells.area),
+        "mean_velocity": cells.flow / cells.area,
+        "profile_exponent": cells.exponent,
+        "sector_flow_rate": sector,
+        "section_flow_rate": sector.sum(axis=-1),
+        "section_pressure": section_mean(cells.pressure, cells.area),
+        "wall_stiffness": model.stiffness,
+        **cells.diagnostics,
+    }
+    if cells.azimuthal_flux is not None:
+        fields["azimuthal_flux"] = cells.azimuthal_flux
+    dataset = coordinates(cells.times, model.grid.x, model.grid.phi)
+    dataset = dataset.assign({name: described(name, values) for name, values in fields.items()})
+    return dataset.assign_attrs(Conventions=CONVENTIONS)
+
+
+def section_mean(values: NDArray[np.float64], area: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean over the lumen's section, weight A = R² of each row; (..., n_phi) → (...)."""
+    return np.asarray(np.sum(values * area, axis=-1) / np.sum(area, axis=-1))

@@ -1,0 +1,229 @@
+"""Run a case in pieces, so that memory stays bounded and an interrupted run can go on bit by bit equal.
+
+Every few states the run leaves a piece beside the result file: what was asked for since the last piece, and
+the whole state at its end. The result is written from the pieces when the last one is there.
+"""
+
+import hashlib
+import os
+import shutil
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+from numpy.typing import NDArray
+
+from cases.sections.case import Case
+from solver.case.locality import wall_locality_error, widest
+from solver.case.model import default_output_times, model_of
+from solver.case.periodicity import cycle_change
+from solver.case.run import counts, walk
+from solver.errors import SolverError
+from solver.marching.semi_implicit import Progress
+from solver.marching.walk import Kept, Stop, history_of
+from solver.model.diagnostics import Diagnostics
+from solver.model.parameters import Model
+from solver.runs.files import write_netcdf
+from solver.runs.result import CellHistory, cell_dataset
+
+PIECE = 25  # states
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Consecutive states of a run, what it took to compute them, and what the scheme needs to go on.
+
+    ``steps`` and ``sweeps`` are those of this piece; ``longest_step`` in s.
+    """
+
+    cells: CellHistory
+    steps: int
+    sweeps: int
+    longest_step: float
+    kept: Kept
+
+
+def pieces_folder(result: Path) -> Path:
+    """Folder of the pieces of a result file."""
+    return result.with_name(result.name + ".pieces")
+
+
+def run_identity(text: str, variant: str, inputs: Iterable[Path]) -> str:
+    """Digest of what must not change between a run and its continuation.
+
+    Parameters
+    ----------
+    text : str
+        The case file.
+    variant : str
+        Name of the variant.
+    inputs : iterable of Path
+        Files that the model is read from besides.
+
+    Raises
+    ------
+    SolverError
+        If one of them cannot be read.
+    """
+    try:
+        own = version("arterial-rom-validation")
+    except PackageNotFoundError:
+        own = "unknown"
+    digest = hashlib.sha256(f"{own}\0{variant}\0{text}".encode())
+    for path in inputs:
+        try:
+            digest.update(b"\0" + path.read_bytes())
+        except OSError as error:
+            raise SolverError(f"{path}: cannot be read: {error.strerror or error}") from error
+    return digest.hexdigest()
+
+
+def run_to_file(
+    case: Case, result: Path, identity: str, attributes: dict[str, Any], resume: bool, progress: Progress
+) -> dict[str, Any]:
+    """Run a case and write its result file.
+
+    Parameters
+    ----------
+    case : Case
+    result : Path
+        NetCDF file to write.
+    identity : str
+        From :func:`run_identity`.
+    attributes : dict
+        Global attributes to add.
+    resume : bool
+        Go on from the pieces of an interrupted run; else they are removed.
+    progress : callable
+        Called with (time reached, last time).
+
+    Returns
+    -------
+    dict
+        ``steps``, ``time_step_s``, ``largest``, the largest magnitude of each diagnostic by name, and
+        ``cycle_change``, None where it cannot be told.
+
+    Raises
+    ------
+    SolverError
+        If a run fails, pieces belong to another run, or a file cannot be written.
+    """
+    folder = _prepare(pieces_folder(result), identity, resume)
+    model, times = model_of(case), default_output_times(case)
+    done = sorted(folder.glob("*.npz"))
+    first, kept = (int(done[-1].stem), _read(done[-1]).kept) if done else (0, None)
+    taken: list[Stop] = []
+    steps = sweeps = 0
+    for number, stop in enumerate(walk(case, model, times[first:], kept), start=first):
+        if kept is None or number > first:
+            taken.append(stop)
+        progress(float(times[number]), float(times[-1]))
+        if len(taken) == PIECE or (number == times.size - 1 and taken):
+            longest = max(each.longest_step for each in taken)
+            piece = Piece(history_of(taken), stop.steps - steps, stop.sweeps - sweeps, longest, stop.kept)
+            _write(folder / f"{number:08d}.npz", piece)
+            taken, steps, sweeps = [], stop.steps, stop.sweeps
+    paths = sorted(folder.glob("*.npz"))
+    error = wall_locality_error(case, model.section_wall, _widest_of(paths))
+    told = {} if error is None else {"wall_locality_error": error}
+    found = _join(case, model, paths, result, attributes | told)
+    shutil.rmtree(folder)
+    return found | told
+
+
+def _prepare(folder: Path, identity: str, resume: bool) -> Path:
+    mark = folder / "identity"
+    if resume:
+        if not mark.is_file():
+            raise SolverError(f"{folder}: no interrupted run to resume; run without --resume")
+        if mark.read_text(encoding="ascii") != identity:
+            raise SolverError(f"{folder}: belongs to another case, variant or version; run without --resume")
+        return folder
+    try:
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        mark.write_text(identity, encoding="ascii")
+    except OSError as error:
+        raise SolverError(f"{folder}: cannot be written: {error.strerror or error}") from error
+    return folder
+
+
+_ARRAYS = ("times", "area", "flow", "pressure", "exponent")
+_CROSSING = "azimuthal_flux"
+_NUMBERS = ("steps", "sweeps", "longest_step")
+
+
+def _write(path: Path, piece: Piece) -> None:
+    values = {name: getattr(piece.cells, name) for name in _ARRAYS}
+    values |= {name: np.asarray(getattr(piece, name)) for name in _NUMBERS}
+    if piece.cells.azimuthal_flux is not None:
+        values[_CROSSING] = piece.cells.azimuthal_flux
+    values |= {f"diagnostic_{name}": found for name, found in piece.cells.diagnostics.items()}
+    values |= {f"kept_{name}": found for name, found in piece.kept.items()}
+    partial = path.with_suffix(".part")
+    try:
+        with partial.open("wb") as stream:
+            np.savez(stream, **values)
+            stream.flush()
+            os.fsync(stream.fileno())
+        partial.replace(path)
+    except OSError as error:
+        raise SolverError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def _read(path: Path) -> Piece:
+    with np.load(path) as stored:
+        diagnostics = {name: stored[f"diagnostic_{name}"] for name in Diagnostics._fields}
+        arrays = {name: stored[name] for name in (*_ARRAYS, _CROSSING) if name in stored.files}
+        cells = CellHistory(**arrays, diagnostics=diagnostics)
+        numbers = {name: stored[name].item() for name in _NUMBERS}
+        names = [name for name in stored.files if name.startswith("kept_")]
+        return Piece(cells, **numbers, kept={name.removeprefix("kept_"): stored[name] for name in names})
+
+
+def _widest_of(paths: list[Path]) -> Floats:
+    """Section pressures at the instant of a run at which they vary most along the artery, Pa, (n_x,)."""
+    profiles = [widest(_read(path).cells.pressure) for path in paths]
+    return max(profiles, key=lambda profile: float(np.ptp(profile)))
+
+
+def _join(
+    case: Case, model: Model, paths: list[Path], result: Path, attributes: dict[str, Any]
+) -> dict[str, Any]:
+    """Write the result from its pieces, one in memory at a time."""
+    partial = result.with_name(f".{result.name}.{os.getpid()}.part")
+    steps = sweeps = 0
+    longest = 0.0
+    largest = dict.fromkeys(Diagnostics._fields, float("nan"))
+    try:
+        for path in paths:
+            piece = _read(path)
+            steps, sweeps = steps + piece.steps, sweeps + piece.sweeps
+            longest = max(longest, piece.longest_step)
+            for name, values in piece.cells.diagnostics.items():
+                largest[name] = float(np.fmax.reduce(np.abs(values), initial=largest[name]))
+            dataset = cell_dataset(model, piece.cells).assign_attrs(attributes)
+            if path == paths[0]:
+                write_netcdf(dataset, partial, unlimited=("time",))
+            else:
+                with netCDF4.Dataset(partial, "a") as stored:
+                    count = stored.dimensions["time"].size
+                    for name in (str(n) for n in dataset.variables if "time" in dataset[n].dims):
+                        stored[name][count:] = dataset[name].to_numpy()
+        with netCDF4.Dataset(partial, "a") as stored:
+            stored.setncatts(counts(case, steps, sweeps, longest))
+            change = cycle_change(case, stored.variables)
+            if change is not None:
+                stored.setncatts({"cycle_change": change})
+        partial.replace(result)
+    except OSError as error:
+        raise SolverError(f"{result}: cannot be written: {error.strerror or error}") from error
+    finally:
+        partial.unlink(missing_ok=True)
+    return {"steps": steps, "time_step_s": longest, "largest": largest, "cycle_change": change}

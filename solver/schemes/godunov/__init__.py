@@ -1,0 +1,1 @@
+"""The split explicit Godunov scheme: numba kernels."""

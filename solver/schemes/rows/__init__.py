@@ -1,0 +1,1 @@
+"""The semi-implicit scheme with a pressure in every row: numba kernels."""

@@ -1,0 +1,1 @@
+"""The semi-implicit scheme with one pressure a section: numba kernels."""
