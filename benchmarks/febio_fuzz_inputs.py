@@ -15,9 +15,9 @@ from log_samples import sample_log
 from xplt_samples import ITEMS, MESH, rich_file, sample_file, sample_sections, state_values
 from xplt_writer import Writer
 
-from febio_io.data_records import read_data_record
 from febio_io.errors import FebioError
-from febio_io.log import read_log
+from febio_io.text.data_records import read_data_record
+from febio_io.text.log import read_log
 from febio_io.xplt import Plot, open_plot
 from febio_io.xplt.summary import summarize, summary_lines
 from febio_io.xplt.tags import Tag

@@ -8,15 +8,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal
 
-from febio_io.data_records import looks_like_record, read_data_record
 from febio_io.errors import FebioError, FebioFileError
-from febio_io.export import Advance, export_log, export_plot, export_record
 from febio_io.feb.structure import read_structure
 from febio_io.feb.summary import model_lines, summarize_model
 from febio_io.files import open_file
-from febio_io.log import LOOKED_AT, looks_like_log, read_log
 from febio_io.selection import parse_states
-from febio_io.text_summary import log_lines, record_lines, summarize_log, summarize_record
+from febio_io.text.data_records import looks_like_record, read_data_record
+from febio_io.text.log import LOOKED_AT, looks_like_log, read_log
+from febio_io.text.summary import log_lines, record_lines, summarize_log, summarize_record
+from febio_io.views.export import Advance, export_log, export_plot, export_record
 from febio_io.xplt import open_plot
 from febio_io.xplt.root import MAGIC_SIZE
 from febio_io.xplt.summary import summarize, summary_lines

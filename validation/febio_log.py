@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from febio_io.log import Log, read_log
+from febio_io.text.log import Log, read_log
 from febio_io.xplt import Plot
 from validation.errors import UnusableReferenceError
 from validation.provenance import shown_path

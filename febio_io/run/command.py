@@ -13,10 +13,10 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 
 from febio_io.errors import FebioError, FebioFileError
 from febio_io.feb.structure import Contents, read_structure
-from febio_io.log import Log, read_log
 from febio_io.run.executable import FebioRunError, find_febio
 from febio_io.run.log_tail import LogTail
 from febio_io.run.process import Finished, run_febio
+from febio_io.text.log import Log, read_log
 from febio_io.xplt import open_plot
 
 Watch = Callable[[LogTail], None]

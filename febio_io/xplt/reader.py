@@ -282,8 +282,8 @@ class Plot:
     def to_xarray(
         self, *, variables: Iterable[str] | None = None, states: Iterable[int] | None = None
     ) -> "xr.Dataset":
-        """Read variables and states into labelled arrays; see :func:`febio_io.arrays.to_xarray`."""
-        from febio_io.arrays import to_xarray
+        """Read variables and states into labelled arrays; see :func:`febio_io.views.arrays.to_xarray`."""
+        from febio_io.views.arrays import to_xarray
 
         return to_xarray(self, variables=variables, states=states)
 
@@ -295,8 +295,8 @@ class Plot:
         edge: str | int | None = None,
         deformed: bool = False,
     ) -> "pv.UnstructuredGrid":
-        """Give one state as a mesh with its values; see :func:`febio_io.grids.to_pyvista`."""
-        from febio_io.grids import to_pyvista
+        """Give one state as a mesh with its values; see :func:`febio_io.views.grids.to_pyvista`."""
+        from febio_io.views.grids import to_pyvista
 
         return to_pyvista(self, state, surface=surface, edge=edge, deformed=deformed)
 

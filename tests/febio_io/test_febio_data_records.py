@@ -8,8 +8,8 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 
-from febio_io.data_records import read_data_record
 from febio_io.errors import FebioError, FebioFileError, FebioFormatError
+from febio_io.text.data_records import read_data_record
 
 
 def block(step, time, *lines, name="ux;uy"):

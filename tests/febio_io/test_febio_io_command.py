@@ -11,9 +11,9 @@ from xplt_samples import MESH, sample_file
 from xplt_writer import Writer
 
 from febio_io.command import main
-from febio_io.data_records import read_data_record
 from febio_io.errors import FebioFileError
-from febio_io.log import read_log
+from febio_io.text.data_records import read_data_record
+from febio_io.text.log import read_log
 from febio_io.xplt import open_plot
 
 LOG = sample_log().encode()

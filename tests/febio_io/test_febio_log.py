@@ -21,7 +21,7 @@ from log_samples import (
 from numpy.testing import assert_array_equal
 
 from febio_io.errors import FebioError, FebioFileError, FebioFormatError, FebioKeyError
-from febio_io.log import read_log
+from febio_io.text.log import read_log
 
 
 @pytest.fixture

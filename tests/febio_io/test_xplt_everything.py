@@ -9,8 +9,8 @@ import xarray as xr
 from numpy.testing import assert_array_equal
 from xplt_writer import DomainOf, FacesOf, Item, MeshOf, Writer, compressed
 
-import febio_io.meshio_format  # noqa: F401 - registers the format
-from febio_io.export import export_plot
+import febio_io.views.meshio_format  # noqa: F401 - registers the format
+from febio_io.views.export import export_plot
 from febio_io.xplt import ELEMENT_TYPES, open_plot
 from febio_io.xplt.summary import summarize, summary_lines
 from febio_io.xplt.tags import Tag

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from febio_io.data_records import read_data_record
+from febio_io.text.data_records import read_data_record
 from febio_io.xplt import open_plot
 
 NAMES = ["none", "axisymmetric", "local", "tiny_raw", "tiny_zlib"]

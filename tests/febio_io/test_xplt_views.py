@@ -12,9 +12,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 from xplt_samples import ITEMS, MESH, SMALL_MESH, sample_file, sample_sections, state_values
 from xplt_writer import DomainOf, FacesOf, Item, MeshOf, Writer
 
-import febio_io.meshio_format  # noqa: F401 - registers the format
+import febio_io.views.meshio_format  # noqa: F401 - registers the format
 from febio_io.errors import FebioError, FebioFileError, FebioFormatError, FebioKeyError
-from febio_io.pyvista_reader import PlotReader
+from febio_io.views.pyvista_reader import PlotReader
 from febio_io.xplt import ELEMENT_TYPES, open_plot
 
 WRITER = Writer()

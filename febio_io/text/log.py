@@ -5,8 +5,8 @@ from pathlib import Path
 
 from febio_io.errors import FebioFileError
 from febio_io.files import read_text
-from febio_io.log_model import Input, Iteration, Log, Message, Norm, RecordLines, TimeStep
-from febio_io.log_reader import parse_log
+from febio_io.text.log_model import Input, Iteration, Log, Message, Norm, RecordLines, TimeStep
+from febio_io.text.log_reader import parse_log
 
 __all__ = [
     "Input",

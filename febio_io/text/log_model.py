@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from febio_io.data_records import DataRecord, make_record
 from febio_io.errors import FebioKeyError
-from febio_io.record_blocks import Block, add_row
+from febio_io.text.data_records import DataRecord, make_record
+from febio_io.text.record_blocks import Block, add_row
 
 if TYPE_CHECKING:
     import pandas as pd

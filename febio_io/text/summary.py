@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
-from febio_io.data_records import DataRecord
-from febio_io.log import Log
+from febio_io.text.data_records import DataRecord
+from febio_io.text.log import Log
 
 Summary = dict[str, Any]
 ENDS = {

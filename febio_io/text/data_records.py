@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from febio_io.errors import FebioFileError, FebioFormatError
 from febio_io.files import read_text
-from febio_io.record_blocks import Block, numbered_lines, read_blocks
-from febio_io.record_units import unit_of
+from febio_io.text.record_blocks import Block, numbered_lines, read_blocks
+from febio_io.text.record_units import unit_of
 
 if TYPE_CHECKING:
     import pandas as pd

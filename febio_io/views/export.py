@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from febio_io.data_records import DataRecord
 from febio_io.errors import FebioKeyError, nearest_first
-from febio_io.file_names import safe_name
 from febio_io.interrupts import interrupts_deferred
-from febio_io.log import Log
-from febio_io.staging import staged
+from febio_io.text.data_records import DataRecord
+from febio_io.text.log import Log
+from febio_io.views.file_names import safe_name
+from febio_io.views.staging import staged
 from febio_io.xplt import Plot
 
 Advance = Callable[[], None]
@@ -57,16 +57,16 @@ def export_plot(
     FebioFileError
         If the folder cannot be written to.
     """
-    from febio_io.arrays import pick_states, pick_variables
+    from febio_io.views.arrays import pick_states, pick_variables
 
     chosen = pick_variables(plot, variables)
     numbers = pick_states(plot, states)
     if file_format in ("vtu", "vtkhdf"):
         with interrupts_deferred():
-            from febio_io.export_vtk import write_vtkhdf, write_vtu
+            from febio_io.views.export_vtk import write_vtkhdf, write_vtu
         write = write_vtu if file_format == "vtu" else write_vtkhdf
     else:
-        from febio_io.export_tables import write_plot_csv, write_plot_nc
+        from febio_io.views.export_tables import write_plot_csv, write_plot_nc
 
         write = write_plot_csv if file_format == "csv" else write_plot_nc
     written: list[Path] = []
@@ -87,7 +87,7 @@ def export_record(
 
     Parameters and errors are those of :func:`export_plot`; `variables` are columns, `blocks` their numbers.
     """
-    from febio_io.export_tables import record_dataset, write_nc
+    from febio_io.views.export_tables import record_dataset, write_nc
 
     labels = list(record.to_xarray().data_vars)
     for name in variables or ():
@@ -114,7 +114,7 @@ def export_log(log: Log, folder: Path, file_format: str) -> list[Path]:
     As .csv, a file for each; as .nc, one for each of the numerical ones. Errors are those of
     :func:`export_plot`.
     """
-    from febio_io.export_tables import log_tables, write_nc
+    from febio_io.views.export_tables import log_tables, write_nc
 
     _need_table(log.path, "log", file_format)
     written: list[Path] = []

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from febio_io.log_model import (
+from febio_io.text.log_model import (
     Input,
     Iteration,
     Log,
@@ -14,7 +14,7 @@ from febio_io.log_model import (
     Termination,
     TimeStep,
 )
-from febio_io.record_blocks import Block
+from febio_io.text.record_blocks import Block
 
 
 @dataclass

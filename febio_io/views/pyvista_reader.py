@@ -7,7 +7,7 @@ from typing import Any
 
 import pyvista as pv
 
-from febio_io.grids import to_pyvista
+from febio_io.views.grids import to_pyvista
 from febio_io.xplt import Plot, open_plot
 from febio_io.xplt.lookup import find_state
 

@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from febio_io.arrays import ITEMS, SECTIONS, to_xarray
-from febio_io.data_records import DataRecord
-from febio_io.file_names import safe_name
-from febio_io.log import Log
+from febio_io.text.data_records import DataRecord
+from febio_io.text.log import Log
+from febio_io.views.arrays import ITEMS, SECTIONS, to_xarray
+from febio_io.views.file_names import safe_name
 from febio_io.xplt import Mesh, Plot, Variable
 from febio_io.xplt.fields import Values
 from febio_io.xplt.mesh import PADDING, Domain, Region

@@ -4,9 +4,9 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from febio_io.log_model import Input, Log, Message, MessageKind, Norm, Termination
-from febio_io.log_state import Attempt, State, end_iteration, log_of
-from febio_io.record_blocks import Block, numbered_lines
+from febio_io.text.log_model import Input, Log, Message, MessageKind, Norm, Termination
+from febio_io.text.log_state import Attempt, State, end_iteration, log_of
+from febio_io.text.record_blocks import Block, numbered_lines
 
 NUMBER = r"([-+]?(?:\d{1,30}\.?\d{0,30}|\.\d{1,30})(?:[eE][-+]?\d{1,5})?|[-+]?(?:nan|inf))"
 COUNT = r"(\d{1,15})"

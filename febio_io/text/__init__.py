@@ -1,0 +1,1 @@
+"""FEBio's text files: logs, and data records (``<logfile>``)."""
