@@ -34,8 +34,8 @@ from solver.case.run import run_case
 from solver.model.parameters import Model
 from solver.runs.batch import run_batch
 from solver.runs.result import CellHistory, section_mean
-from validation.output import write_text
-from validation.provenance import provenance
+from validation.runs.output import write_text
+from validation.runs.provenance import provenance
 
 ROOT = Path(__file__).parents[1]
 CASE = ROOT / "benchmarks" / "thesis.yaml"

@@ -12,10 +12,10 @@ from cases.reading.case_file import load_case_file
 from reports.drawing import STYLE, WIDTH, svg_text
 from reports.figures import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
 from solver.case.model import grid_of
-from validation.febio_reference import read_febio
-from validation.ladder import models_between
-from validation.rays import rays
-from validation.reduced_model import run_reduced_model
+from validation.ablation.ladder import models_between
+from validation.mapping.rays import rays
+from validation.reference.febio.read import read_febio
+from validation.runs.reduced_model import run_reduced_model
 
 ROOT = Path(__file__).parents[1]
 MODELS = {"thick wall, row pressure": DIFFERENCE_COLOUR, "membrane wall, section pressure": ROM_COLOUR}

@@ -14,7 +14,7 @@ from pathlib import Path
 import numba
 
 FOLDER = "arterial-rom-validation"
-KERNELS = ("solver/schemes", "validation")  # every folder with kernels: they share one cache
+KERNELS = ("solver/schemes", "validation/mapping")  # every folder with kernels: they share one cache
 
 
 def sources_digest(folders: Iterable[Path]) -> str:

@@ -25,8 +25,8 @@ from solver.case.godunov import THREADS
 from solver.case.model import model_of
 from solver.case.run import walk
 from solver.errors import SolverError
-from validation.output import write_text
-from validation.provenance import provenance
+from validation.runs.output import write_text
+from validation.runs.provenance import provenance
 
 ROOT = Path(__file__).parents[1]
 CASE = ROOT / "benchmarks" / "thesis.yaml"
@@ -230,13 +230,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             rows = measure(CASE, chosen.repeat, chosen.quick, status.update)
         write_text(chosen.output, json.dumps(result_of(rows, CASE, command), indent=1) + "\n")
     except (CaseError, SolverError) as error:
-        print(error, file=sys.stderr)  # noqa: T201
+        print(error, file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"{chosen.output}: cannot be written: {error.strerror or error}", file=sys.stderr)  # noqa: T201
+        print(f"{chosen.output}: cannot be written: {error.strerror or error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("interrupted; nothing was written", file=sys.stderr)  # noqa: T201
+        print("interrupted; nothing was written", file=sys.stderr)
         return 130
     console = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
     console.print(table_of(rows))

@@ -1,6 +1,7 @@
 """Plot files as meshes of meshio.
 
-``import febio_io.views.meshio_format`` makes ``meshio.read("case.xplt")`` work. meshio has no entry points for formats of other packages, hence the import.
+``import febio_io.views.meshio_format`` makes ``meshio.read("case.xplt")`` work. meshio has no entry
+points for formats of other packages, hence the import.
 """
 
 from os import PathLike

@@ -14,7 +14,11 @@ SHIPPED = Path(__file__).parents[2] / "cases"
     ("name", "called", "command"),
     [
         ("sweep.yaml", "the study of a sweep (it states 'base')", "validation.sweep"),
-        ("calibration_of_outlet.yaml", "a calibration file (it states 'case')", "validation.calibrate"),
+        (
+            "calibration_of_outlet.yaml",
+            "a calibration file (it states 'case')",
+            "validation.calibrate",
+        ),
     ],
 )
 def test_another_kind_of_file_is_no_case_file(name, called, command, capsys):

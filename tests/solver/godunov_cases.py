@@ -5,7 +5,7 @@ import numpy as np
 from solver.geometry.grid import Grid
 from solver.marching.godunov_setup import State, held
 from solver.wall.smooth_patch import smooth_wall
-from validation.thesis_tables.artery import DIASTOLE, HEALTHY, LENGTH, RADIUS, artery, plaque
+from validation.tables.artery import DIASTOLE, HEALTHY, LENGTH, RADIUS, artery, plaque
 
 SOFT = 1.2 * HEALTHY  # a plaque so mild that a sudden start turns no row backwards
 

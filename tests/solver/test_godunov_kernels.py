@@ -13,7 +13,7 @@ from solver.schemes.godunov import layout
 from solver.schemes.godunov.exchange import SERIES_LIMIT, exchange, growth
 from solver.schemes.godunov.waves import decompose, limited
 from solver.wall.smooth_patch import column_places, smooth_wall
-from validation.thesis_tables.artery import CALCIFIED, HEALTHY
+from validation.tables.artery import CALCIFIED, HEALTHY
 
 
 def perturbed(setup, seed=1):

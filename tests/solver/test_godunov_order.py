@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from validation.thesis_tables.simple_wave import area_error, exact_area, initial_area
+from validation.tables.simple_wave import area_error, exact_area, initial_area
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from solver.geometry.calcification import Patch
 from solver.marching.godunov import Stepper, march, march_to_steady, thesis_criteria
 from solver.marching.godunov_setup import LIMITERS, State, held, load, reference_state, repeated
 from solver.wall.smooth_patch import smooth_wall
-from validation.thesis_tables.artery import CALCIFIED, HEALTHY, QUARTER_CM, artery, ring
+from validation.tables.artery import CALCIFIED, HEALTHY, QUARTER_CM, artery, ring
 
 UNKNOWNS = ("area", "flow", "exponent")
 

@@ -4,9 +4,9 @@ import numpy as np
 import xarray as xr
 
 from cases.fields import FIELDS
-from validation.derived import as_dataset
-from validation.metrics import Models, models_of
-from validation.rays import rays
+from validation.mapping.derived import as_dataset
+from validation.mapping.rays import rays
+from validation.metrics.rows import Models, models_of
 
 PERIOD = 0.8
 N_X, N_PHI, N_T = 6, 8, 21

@@ -10,7 +10,7 @@ from small_case import bands, small_case, written
 from tube_plot import write_tube
 from tubes import SHORT
 
-from validation import compare
+from validation.compare import command as compare
 
 os.environ["ARTERIAL_ROM_CACHE"] = ""  # tests that replace parts of the code must not find results of others
 

@@ -10,10 +10,10 @@ from small_case import ROOT, small_case, written
 from cases.reading.case_file import load_case_file
 from cases.sections.wall import MembraneWall
 from solver.errors import ModelError
-from validation import ablation
+from validation.ablation import command as ablation
+from validation.ablation.ladder import models_between
+from validation.ablation.thesis_sectors import read_table, sector_errors
 from validation.errors import ValidationError
-from validation.ladder import models_between
-from validation.thesis_sectors import read_table, sector_errors
 
 TABLE = ROOT / "reference_data/thesis/table_3_8.csv"
 

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from validation.alignment import align
 from validation.errors import UnusableReferenceError
+from validation.reference.alignment import align
 
 PERIOD = 0.8
 

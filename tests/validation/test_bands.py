@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cases.sections.compare import COMPARED_QUANTITIES, RELATIVE_STATISTICS, Band
-from validation.bands import band_rows, judged_value
-from validation.cycle_quantities import CYCLE_QUANTITIES
+from validation.metrics.bands import band_rows, judged_value
+from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
 
 DIFFERENCES = ("rms_difference", "max_difference")
 

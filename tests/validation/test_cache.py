@@ -15,12 +15,13 @@ from tube_plot import write_tube
 from tubes import Tube
 
 from cases.reading.case_file import load_case_file
-from validation import cached_runs, compare
-from validation.alignment import align
-from validation.cache import ABANDONED, Cache, Entry, open_cache
-from validation.cached_runs import canonical, reference_key, rom_key
+from validation.compare import command as compare
 from validation.errors import ValidationError
-from validation.rays import rays
+from validation.mapping.rays import rays
+from validation.reference.alignment import align
+from validation.runs import cached as cached_runs
+from validation.runs.cache import ABANDONED, Cache, Entry, open_cache
+from validation.runs.cached import canonical, reference_key, rom_key
 
 GENEROUS = ("radius", "rms_error", "50 %")
 SHORT = Tube(sectors=8, rings=2, stacks=6, layers=1)
@@ -109,7 +110,8 @@ class TestStorage:
     def test_two_processes_share_a_folder(self, tmp_path):
         code = (
             "import sys; sys.path[:0] = ['tests/validation', '.']\n"
-            "from pathlib import Path; from test_cache import entry; from validation.cache import Cache\n"
+            "from pathlib import Path; from test_cache import entry\n"
+            "from validation.runs.cache import Cache\n"
             f"store = Cache(Path({str(tmp_path)!r}), limit=12000)\n"
             "for n in range(60):\n"
             "    store.put(f'k{n % 7}', entry())\n"
@@ -219,7 +221,7 @@ class TestUse:
         first, about = run()
         assert self.used(about) == [False, False]
         monkeypatch.setattr(cached_runs, "run_reduced_model", lambda *_: pytest.fail("the model ran"))
-        monkeypatch.setattr("validation.mapping.Mapper.map_state", lambda *_: pytest.fail("mapped"))
+        monkeypatch.setattr("validation.mapping.state.Mapper.map_state", lambda *_: pytest.fail("mapped"))
         second, again = run(declared=[GENEROUS])
         assert self.used(again) == [True, True]
         assert [line for line in second.splitlines() if not line.endswith("OK")] == first.splitlines()

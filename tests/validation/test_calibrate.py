@@ -15,13 +15,13 @@ from cases.reading.case_file import load_case_file
 from cases.reading.numeric_keys import numeric_keys
 from cases.reading.template import case_with
 from solver.runs.batch import run_batch
-from validation import calibrate
-from validation.calibrate import calibrated
-from validation.calibrated_case import snippet
-from validation.calibration import fit
-from validation.calibration_targets import observed
+from validation.calibrate import command as calibrate
+from validation.calibrate.command import calibrated
+from validation.calibrate.fit import fit
+from validation.calibrate.fitted_case import snippet
+from validation.calibrate.targets import observed
 from validation.errors import ValidationError
-from validation.run import watching
+from validation.runs.variants import watching
 
 OUTLET = {
     "outlet.resistance": {"low": "1e8 Pa s/m^3", "high": "1e10 Pa s/m^3"},
@@ -280,7 +280,7 @@ def test_an_interrupt_leaves_nothing(calibration_of, tmp_path, capsys, monkeypat
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("validation.calibration.run_batch", interrupted)
+    monkeypatch.setattr("validation.calibrate.fit.run_batch", interrupted)
     path = calibration_of(OUTLET, PRESSURES)
     assert calibrate.main([str(path), "--output", str(tmp_path / "out")]) == 130
     assert capsys.readouterr().err == "interrupted; no result was written\n"

@@ -13,7 +13,7 @@ from tube_plot import VARIABLES, write_tube
 from tubes import SHORT
 
 from febio_io.feb import command as feb_command
-from validation import compare
+from validation.compare import command as compare
 
 
 def edited(section, key, value):

@@ -9,7 +9,9 @@ import time
 import pytest
 from small_case import ROOT, bands, small_case, written
 
-from validation import cached_runs, compare, output
+from validation.compare import command as compare
+from validation.runs import cached as cached_runs
+from validation.runs import output
 
 
 def interrupt(*_arguments, **_options):

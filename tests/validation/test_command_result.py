@@ -14,8 +14,8 @@ from small_case import GENEROUS, IMPOSSIBLE, bands, small_case, written
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from cases.fields import FIELDS
-from validation import compare
-from validation.metrics import CELL_QUANTITIES, SECTION_QUANTITIES
+from validation.compare import command as compare
+from validation.metrics.rows import CELL_QUANTITIES, SECTION_QUANTITIES
 
 FILES = {"comparison.nc", "metrics.csv", "metrics.json", "provenance.json", "report.html", "report.pdf"}
 

@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 from small_case import GENEROUS, IMPOSSIBLE, written
 
-from validation import compare
+from validation.compare import command as compare
 
 
 @pytest.mark.parametrize(
@@ -19,7 +19,7 @@ def test_exit_status_follows_the_bands_if_asked(tmp_path, quick, capsys, band, o
 
 
 def test_a_missing_quantity_breaks_its_band(tmp_path, quick, monkeypatch, made):
-    monkeypatch.setattr("validation.bands.judged_value", lambda models, band: None)
+    monkeypatch.setattr("validation.metrics.bands.judged_value", lambda models, band: None)
     path = written(made(GENEROUS), tmp_path)
     assert compare.main([str(path), "--output", str(tmp_path / "result"), "--check"]) == 1
     assert pd.read_csv(tmp_path / "result/metrics.csv")["status"].dropna().tolist() == ["MISSING"]

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 from small_case import IMPOSSIBLE, written
 
-from validation import compare
+from validation.compare import command as compare
 
 
 class TestTarget:

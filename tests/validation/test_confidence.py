@@ -8,8 +8,8 @@ from comparisons import N_T, equal_models, two_models
 from hypothesis import given
 from hypothesis import strategies as st
 
-from validation.bootstrap import block_length, mean_interval
-from validation.confidence import confidence_rows
+from validation.metrics.bootstrap import block_length, mean_interval
+from validation.metrics.confidence import confidence_rows
 
 
 def red_noise(rng, n, memory):

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_case import small_case, written
 
-from validation import converge
-from validation.convergence import SAFETY, convergence
+from validation.converge import command as converge
+from validation.converge.convergence import SAFETY, convergence
 
 LIMITS = st.floats(0.1, 1e5)
 

@@ -10,11 +10,11 @@ import pytest
 from cases.reading.case_file import load_case_file
 from solver.case.model import grid_of
 from solver.case.run import run_case
-from validation.febio_reference import read_febio
-from validation.ladder import models_between
-from validation.rays import rays
-from validation.statistics import largest, rms
-from validation.thesis_sectors import sector_errors
+from validation.ablation.ladder import models_between
+from validation.ablation.thesis_sectors import sector_errors
+from validation.mapping.rays import rays
+from validation.metrics.statistics import largest, rms
+from validation.reference.febio.read import read_febio
 
 from small_case import ROOT  # isort: skip
 

@@ -7,7 +7,8 @@ import pandas as pd
 import pytest
 from small_case import bands, small_case, written
 
-from validation import compare, febio_reference
+from validation.compare import command as compare
+from validation.reference.febio import read as febio_reference
 
 ALL_BANDS = [
     *(("pressure", "bias", "3 %"), ("section_pressure", "bias", "3 %"), ("systolic_pressure", "bias", "3 %")),

@@ -15,8 +15,8 @@ from tubes import Tube
 from cases.reading.case_file import load_case_file
 from febio_io.errors import FebioError
 from validation.errors import UnusableReferenceError
-from validation.febio_reference import read_febio
-from validation.mesh import Block
+from validation.mapping.mesh import Block
+from validation.reference.febio.read import read_febio
 
 TUBE = Tube(sectors=12, rings=4, stacks=10, layers=2)
 TIMES = np.linspace(0.0, 2.392 / 3, 6)

@@ -6,18 +6,18 @@ import pyvista as pv
 from numpy.testing import assert_allclose
 from tubes import TURN, Tube
 
-from validation.curved_section import curved_flow_rate
-from validation.derived import derived_fields
-from validation.elements import HEXAHEDRON, WEDGE
 from validation.errors import UnusableReferenceError
-from validation.frame import frame
-from validation.mapping import Mapper
-from validation.mesh import Block, lumen_mesh
-from validation.plane_section import lumen_grid, plane_flow_rate
-from validation.pressure import element_centres, recovery_operator
-from validation.rays import rays
-from validation.surface import area_across_axis, enclosed_volume, flow_along_axis, flux
-from validation.wall_radius import interface_radius
+from validation.mapping.derived import derived_fields
+from validation.mapping.elements import HEXAHEDRON, WEDGE
+from validation.mapping.mesh import Block, lumen_mesh
+from validation.mapping.plane_section import lumen_grid, plane_flow_rate
+from validation.mapping.pressure import element_centres, recovery_operator
+from validation.mapping.rays import rays
+from validation.mapping.state import Mapper
+from validation.mapping.surface import area_across_axis, enclosed_volume, flow_along_axis, flux
+from validation.mapping.wall_radius import interface_radius
+from validation.metrics.curved_section import curved_flow_rate
+from validation.reference.frame import frame
 
 COARSE = Tube(sectors=12, rings=4, stacks=10, layers=2)
 KINDS = [

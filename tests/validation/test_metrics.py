@@ -21,9 +21,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cases.fields import FIELDS
-from validation import metrics
-from validation.cycle_quantities import CYCLE_QUANTITIES, phase_lag
-from validation.metrics import COLUMNS, Row, to_frame
+from validation.metrics import rows as metrics
+from validation.metrics.cycle_quantities import CYCLE_QUANTITIES, phase_lag
+from validation.metrics.rows import COLUMNS, Row, to_frame
 
 AFFECTED = {
     "pressure": {"pressure"},

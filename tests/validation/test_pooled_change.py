@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from comparisons import CELLS, PERIOD, TIMES, equal_models, two_models
 
-from validation.assumptions import assumption_rows
-from validation.pooled_change import pooled_change_rows, without_rays
+from validation.metrics.assumptions import assumption_rows
+from validation.metrics.pooled_change import pooled_change_rows, without_rays
 
 ABOUT = {"compare_i": CELLS[0], "compare_j": CELLS[1], "compare_times_s": TIMES}
 BASELINES = {"none": "none", "local": "none"}

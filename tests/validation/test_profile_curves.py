@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from validation.profile_curves import EXPONENTS, error_curves, profile_rows
-from validation.profiles import closest_profile, errors_at
+from validation.mapping.profiles import closest_profile, errors_at
+from validation.metrics.profile_curves import EXPONENTS, error_curves, profile_rows
 
 Y = np.linspace(0.0, 1.0, 25)
 ABOUT = {"compare_i": CELLS[0], "compare_j": CELLS[1], "compare_times_s": TIMES}

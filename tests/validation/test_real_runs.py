@@ -6,9 +6,9 @@ from small_case import small_case, written
 
 from cases.reading.case_file import load_case_file
 from solver.case.model import inlet_signal
-from validation.curved_section import curved_flow_rate
-from validation.febio_reference import read_febio
-from validation.rays import rays
+from validation.mapping.rays import rays
+from validation.metrics.curved_section import curved_flow_rate
+from validation.reference.febio.read import read_febio
 
 X = np.array([0.625e-3, 6.875e-3, 7.5e-3, 14.375e-3])
 PHI = np.arange(8) * np.pi / 4

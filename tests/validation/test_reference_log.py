@@ -8,7 +8,7 @@ from tubes import Tube
 from febio_io.errors import FebioFileError
 from febio_io.xplt import open_plot
 from validation.errors import UnusableReferenceError
-from validation.febio_log import account_of_log
+from validation.reference.febio.log import account_of_log
 
 TUBE = Tube(sectors=6, rings=2, stacks=3, layers=1)
 RULE = "=" * 75

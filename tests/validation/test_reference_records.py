@@ -12,8 +12,8 @@ from cases.sections.case import RecordFile
 from febio_io.errors import FebioFileError, FebioFormatError
 from febio_io.xplt import open_plot
 from validation.errors import UnusableReferenceError
-from validation.febio_records import account_of_record
-from validation.frame import frame
+from validation.reference.febio.records import account_of_record
+from validation.reference.frame import frame
 
 TUBE = Tube(sectors=6, rings=2, stacks=3, layers=1)
 TIMES = (0.0, 0.25, 0.5)

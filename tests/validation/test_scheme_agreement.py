@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.thesis_tables.scheme_agreement import _rows, difference, explicit_flow
+from validation.tables.scheme_agreement import _rows, difference, explicit_flow
 
 
 def test_already_on_a_coarse_grid_without_calcification():

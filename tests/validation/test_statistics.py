@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from validation.metrics import pooled
-from validation.statistics import extreme_error, relative_error
+from validation.metrics.rows import pooled
+from validation.metrics.statistics import extreme_error, relative_error
 
 REFERENCE = np.array([[2.0, 4.0], [-5.0, 8.0]])
 ROM = np.array([[2.2, 3.0], [-5.0, 8.8]])

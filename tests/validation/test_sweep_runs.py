@@ -16,10 +16,10 @@ from febio_io.errors import FebioError
 from reports.errors import ReportError
 from reports.sweep.load import load_sweep
 from solver.case.run import run_case
-from validation import compare
+from validation.ablation.ladder import coupled_model
+from validation.compare import command as compare
 from validation.errors import ValidationError
-from validation.ladder import coupled_model
-from validation.statistics import rms
+from validation.metrics.statistics import rms
 from validation.sweep import run
 from validation.sweep.__main__ import main
 from validation.sweep.folder import claimed

@@ -6,9 +6,9 @@ import json
 import pytest
 
 from solver.errors import WallCollapse
-from validation import tables
-from validation.thesis_tables import presentation, store
-from validation.thesis_tables.experiment import Entry, Experiment, Row, number, numbers, within
+from validation.tables import command as tables
+from validation.tables import presentation, store
+from validation.tables.experiment import Entry, Experiment, Row, number, numbers, within
 
 
 @pytest.fixture

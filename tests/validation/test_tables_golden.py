@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from validation.tables import main
-from validation.thesis_tables import pulsatile_tables, stability, steady_flow, steady_tables
-from validation.thesis_tables.artery import QUARTER_CM
-from validation.thesis_tables.pulse import block_pulse
+from validation.tables import pulsatile_tables, stability, steady_flow, steady_tables
+from validation.tables.artery import QUARTER_CM
+from validation.tables.command import main
+from validation.tables.pulse import block_pulse
 
 
 @pytest.mark.parametrize(

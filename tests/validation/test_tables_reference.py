@@ -10,11 +10,11 @@ from small_case import ROOT, written
 
 from cases.reading.case_file import load_case_file
 from solver.case.model import grid_of
-from validation import compare
-from validation.comparison import baselines_of
+from validation.compare import command as compare
+from validation.compare.comparison import baselines_of
 from validation.errors import UnusableReferenceError
-from validation.rays import rays
-from validation.tables_reference import align_tables, read_tables
+from validation.mapping.rays import rays
+from validation.reference.tables import align_tables, read_tables
 
 THESIS = ROOT / "reference_data" / "thesis"
 READY = ROOT / "cases/thesis.yaml"

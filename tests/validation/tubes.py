@@ -10,9 +10,9 @@ from functools import cached_property
 
 import numpy as np
 
-from validation.elements import HEXAHEDRON, TETRAHEDRON, WEDGE
-from validation.mesh import Block, LumenMesh, lumen_mesh
-from validation.rays import Rays, rays
+from validation.mapping.elements import HEXAHEDRON, TETRAHEDRON, WEDGE
+from validation.mapping.mesh import Block, LumenMesh, lumen_mesh
+from validation.mapping.rays import Rays, rays
 
 TURN = 2 * np.pi
 

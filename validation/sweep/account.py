@@ -7,9 +7,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
 
-from validation.cached_runs import canonical, code_digest
-from validation.output import write_json, write_text
-from validation.provenance import git_commit, installed, shown_path
+from validation.runs.cached import canonical, code_digest
+from validation.runs.output import write_json, write_text
+from validation.runs.provenance import git_commit, installed, shown_path
 from validation.sweep import outputs, parameters
 from validation.sweep.folder import ACCOUNT, STUDY, Counts, writing
 from validation.sweep.judging import STATES

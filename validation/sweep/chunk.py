@@ -11,8 +11,8 @@ from cases.sections.case import Case
 from solver.model.parameters import Model
 from solver.runs.batch import run_batch
 from solver.runs.result import CellHistory, cell_dataset
-from validation.ladder import coupled_model
-from validation.reduced_model import change_of, run_times
+from validation.ablation.ladder import coupled_model
+from validation.runs.reduced_model import change_of, run_times
 from validation.sweep.judging import Standard, instants_of, judged_values
 from validation.sweep.outputs import CYCLE_CHANGE, OWN, Output
 from validation.sweep.samples import Sample

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 import dask
 from distributed import Client, LocalCluster
 
-from validation.cached_runs import code_digest
 from validation.errors import ValidationError
+from validation.runs.cached import code_digest
 
 PROCESSES, THREADS = "processes", "threads"
 CONNECT_WITHIN = "10s"

@@ -12,16 +12,16 @@ from cases.fields import FIELDS
 from cases.sections.case import Case
 from cases.sections.compare import Band, ComparedQuantity
 from solver.case.model import grid_of
-from validation.bands import judged_value
-from validation.cache import Cache
-from validation.cached_runs import cached_reference
-from validation.cycle_quantities import CYCLE_QUANTITIES
+from validation.ablation.ladder import coupled_model
 from validation.errors import ValidationError
-from validation.ladder import coupled_model
-from validation.metrics import Models
-from validation.rays import rays
-from validation.reference import Progress
-from validation.reference_kinds import REFERENCE_KINDS
+from validation.mapping.rays import rays
+from validation.metrics.bands import judged_value
+from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
+from validation.metrics.rows import Models
+from validation.reference.kind import Progress
+from validation.reference.kinds import REFERENCE_KINDS
+from validation.runs.cache import Cache
+from validation.runs.cached import cached_reference
 
 Against = Literal["none", "coupled", "reference"]
 Floats = NDArray[np.float64]

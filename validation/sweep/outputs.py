@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cases.fields import FIELDS, Field
 from cases.sections.case import Case, LocalCalcification, NoCalcification
 from cases.sections.compare import Band
-from validation.cycle_quantities import CYCLE_QUANTITIES
+from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
 from validation.sweep.judging import Against, judged_bands
 
 Floats = NDArray[np.float64]

@@ -10,9 +10,9 @@ import pyarrow as pa
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from validation.cache import open_cache
 from validation.errors import ValidationError
-from validation.generated import check_computed
+from validation.reference.generated import check_computed
+from validation.runs.cache import open_cache
 from validation.sweep.account import account_of, digest_of, write_account, write_study
 from validation.sweep.chunk import Plan
 from validation.sweep.cluster import connected

@@ -1,0 +1,216 @@
+"""``python -m validation.ablation CASE.yaml``: what each part of the coupled model buys against 3D.
+
+Every variant is run with each model between the thesis's and the coupled one, and compared with the same 3D
+run. In a directory that holds a finished comparison its reports get the table too.
+"""
+
+import argparse
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.table import Table
+
+from cases.errors import CaseError
+from cases.reading.case_file import CaseFile, load_case_file
+from cases.sections.case import Case, LocalCalcification
+from febio_io.errors import FebioError
+from reports import ReportError, write_reports
+from solver.case.model import grid_of
+from solver.errors import SolverError
+from validation.ablation.ladder import models_between
+from validation.ablation.thesis_sectors import sector_errors
+from validation.errors import ValidationError
+from validation.mapping.rays import rays
+from validation.metrics.statistics import largest, rms
+from validation.reference.generated import check_stated
+from validation.reference.kind import Reference
+from validation.runs.output import MARK, write_json
+from validation.runs.reduced_model import run_reduced_model
+from validation.runs.variants import Watch, kind_of, watching
+
+EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
+WRONG_INPUT, INTERRUPTED = 2, 130
+PAGE_WIDTH = 160
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class AblationRow:
+    """Relative errors of one model in one variant; None where it failed, or there is nothing to compare.
+
+    Attributes
+    ----------
+    variant, model : str
+    radius_rms, radius_max, pressure_rms, section_flow_rms : float or None
+        Against the 3D run, over all cells or sections and states.
+    sector_share_rms, sector_share_max : float or None
+        The same of a sector's flow over its section's.
+    thesis_sector_max : float or None
+        Largest error of the sectors' flows over their mean against the thesis's table 3.8.
+    run_s : float
+        CPU seconds of the reduced model, tables and steady start included.
+    failure : str
+        What stopped the run, or "".
+    """
+
+    variant: str
+    model: str
+    radius_rms: float | None = None
+    radius_max: float | None = None
+    pressure_rms: float | None = None
+    section_flow_rms: float | None = None
+    sector_share_rms: float | None = None
+    sector_share_max: float | None = None
+    thesis_sector_max: float | None = None
+    run_s: float = 0.0
+    failure: str = ""
+
+
+HEADINGS: Mapping[str, str] = {
+    "radius_rms": "R rms",
+    "radius_max": "R worst",
+    "pressure_rms": "P rms",
+    "section_flow_rms": "section flow rms",
+    "sector_share_rms": "sector share rms",
+    "sector_share_max": "sector share worst",
+    "thesis_sector_max": "table 3.8 worst",
+}
+
+
+def ablation_row(
+    variant: str, model: str, case: Case, reference: Reference, table: Path | None
+) -> AblationRow:
+    """Run one model and compare it."""
+    grid = grid_of(case)
+    begin = time.process_time()
+    try:
+        run = run_reduced_model(case, reference.alignment, rays(grid.x, grid.phi)).fields
+    except SolverError as error:
+        return AblationRow(variant, model, failure=str(error), run_s=time.process_time() - begin)
+    spent = time.process_time() - begin
+
+    def relative(name: str, over: str | None = None) -> Floats:
+        one, other = run[name], reference.fields[name]
+        if over is not None:
+            one, other = one / run[over], other / reference.fields[over]
+        return np.asarray((one.to_numpy() - other.to_numpy()) / other.to_numpy())
+
+    radius, share = relative("radius"), relative("sector_flow_rate", "section_flow_rate")
+    has_table = table is not None and isinstance(case.calcification, LocalCalcification)
+    return AblationRow(
+        variant,
+        model,
+        radius_rms=rms(radius),
+        radius_max=largest(radius),
+        pressure_rms=rms(relative("pressure")),
+        section_flow_rms=rms(relative("section_flow_rate")),
+        sector_share_rms=rms(share),
+        sector_share_max=largest(share),
+        thesis_sector_max=largest(sector_errors(case, table)) if table is not None and has_table else None,
+        run_s=round(spent, 3),
+    )
+
+
+def ablation_rows(file: CaseFile, table: Path | None, watch: Watch) -> Iterator[AblationRow]:
+    """All models of all variants.
+
+    Raises
+    ------
+    ValidationError
+        If a variant states no reference; else as the readers raise.
+    """
+    check_stated(file)
+    for variant, case in file.variants.items():
+        models = models_between(case)
+        grid = grid_of(case)
+        with watch.step(f"{variant}: 3D onto cells") as progress:
+            reference = kind_of(variant, case).read(case, rays(grid.x, grid.phi), progress, None)
+        for model, changed in models.items():
+            with watch.step(f"{variant}: {model}"):
+                yield ablation_row(variant, model, changed, reference, table)
+
+
+def write_rows(directory: Path, rows: list[AblationRow]) -> None:
+    """Write ablation.csv and ablation.json, each whole or not at all; draw a finished comparison again.
+
+    Raises
+    ------
+    ValidationError
+        If they cannot be written.
+    ReportError
+        If the directory holds a comparison that is damaged.
+    """
+    records = [asdict(row) for row in rows]
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        partial = directory / ".ablation.csv.part"
+        pd.DataFrame(records).to_csv(partial, index=False)
+        partial.replace(directory / "ablation.csv")
+        partial = directory / ".ablation.json.part"
+        write_json(partial, records)
+        partial.replace(directory / "ablation.json")
+    except OSError as error:
+        raise ValidationError(f"{directory}: cannot be written: {error.strerror or error}") from error
+    if (directory / MARK).is_file():
+        write_reports(directory)
+
+
+def printed(rows: list[AblationRow]) -> Table:
+    """Rows as a table for a terminal."""
+    table = Table(title="Errors against 3D")
+    for heading in ("variant", "model", *HEADINGS.values(), "run"):
+        table.add_column(heading, no_wrap=heading == "model")
+    for row in rows:
+        values = [getattr(row, name) for name in HEADINGS]
+        texts = ["" if value is None else f"{100 * value:+.2f} %" for value in values]
+        table.add_row(
+            row.variant, row.model, *(texts if not row.failure else [row.failure]), f"{row.run_s:.2f} s"
+        )
+    return table
+
+
+def _arguments(argv: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="python -m validation.ablation",
+        description="Run each model between the thesis's and the coupled one against the same 3D runs.",
+    )
+    parser.add_argument("case", type=Path, metavar="CASE.yaml", help="case file")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="folder (default: results/NAME-ablation); the report of a comparison there gets the table",
+    )
+    parser.add_argument(
+        "--sectors", type=Path, metavar="CSV", help="the thesis's table 3.8, for local calcifications"
+    )
+    return parser.parse_args(argv)
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command; return its exit status."""
+    arguments = _arguments(argv)
+    try:
+        file = load_case_file(arguments.case)
+        directory = arguments.output or Path("results") / f"{file.name}-ablation"
+        with watching() as watch:
+            rows = list(ablation_rows(file, arguments.sectors, watch))
+        write_rows(directory, rows)
+    except EXPECTED as error:
+        print(error, file=sys.stderr)
+        return WRONG_INPUT
+    except KeyboardInterrupt:
+        print("interrupted; no result was written", file=sys.stderr)
+        return INTERRUPTED
+    console = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
+    console.print(printed(rows))
+    console.print(f"{directory / 'ablation.csv'}")
+    return 0

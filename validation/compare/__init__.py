@@ -1,0 +1,1 @@
+"""The comparison of a case's variants with their references, and what it leaves."""

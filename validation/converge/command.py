@@ -1,0 +1,153 @@
+"""``python -m validation.converge CASE.yaml``: what the 2D model's numbers owe to its grid and steps."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from rich.console import Console
+from rich.progress import Progress
+from rich.table import Table
+
+from cases.errors import CaseError
+from cases.fields import FIELDS
+from cases.reading.case_file import CaseFile, load_case_file
+from solver.errors import SolverError
+from validation.converge.refinement import STUDIES, Refined, levels, refined
+from validation.errors import ValidationError
+from validation.runs.output import write_json, write_text
+
+WRONG_INPUT, INTERRUPTED = 2, 130
+LEVELS = ("coarse", "own", "fine")
+PAGE_WIDTH = 130  # columns of the table where there is no terminal
+
+
+def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="python -m validation.converge",
+        description="Run the 2D side of a case on three grids and with three time steps; report observed "
+        "orders, Richardson extrapolates and grid convergence indices.",
+    )
+    parser.add_argument("case", type=Path, metavar="CASE.yaml")
+    parser.add_argument("--variant", action="append", metavar="NAME", help="only these; may be repeated")
+    parser.add_argument(
+        "--output", type=Path, metavar="DIR", help="folder for results, default results/NAME-convergence"
+    )
+    return parser.parse_args(arguments)
+
+
+def _chosen(file: CaseFile, names: list[str] | None) -> list[str]:
+    unknown = [name for name in names or () if name not in file.variants]
+    if unknown:
+        raise ValidationError(f"{file.path}: no variant {unknown[0]!r}; it has: {', '.join(file.variants)}")
+    return names or list(file.variants)
+
+
+def study(file: CaseFile, names: list[str], console: Console) -> list[Refined]:
+    """Refine grid and time step of some variants; progress is shown on a terminal.
+
+    Raises
+    ------
+    SolverError, ValidationError
+        If a grid cannot be halved, or a run fails.
+    """
+    runs = [(name, what) for name in names for what in STUDIES]
+    for name, what in runs:
+        levels(file.variants[name], what)
+    found = []
+    with Progress(console=console, transient=True, disable=not console.is_terminal) as display:
+        task = display.add_task("", total=len(runs))
+        for name, what in runs:
+            display.update(task, description=f"{name}: {what}")
+            found += refined(name, file.variants[name], what)
+            display.advance(task)
+    return found
+
+
+def _words(value: float | None, form: str) -> str:
+    return "–" if value is None else format(value, form)
+
+
+def print_table(console: Console, found: Sequence[Refined]) -> None:
+    """Print the numbers of the cycle, in the units people read."""
+    table = Table(
+        "variant", "study", "quantity", "coarse", "own", "fine", "limit", "order", "error of own", "index"
+    )
+    for number in found:
+        if number.where != "cycle":
+            continue
+        field = FIELDS[number.quantity]
+        record = number.record()
+        shown = [
+            _words(record[key] and record[key] * field.display_factor, ".6g")
+            for key in ("coarse", "own", "fine")
+        ]
+        limit = number.found.extrapolate
+        table.add_row(
+            number.variant,
+            number.study,
+            f"{field.label} ({field.display_unit})",
+            *shown,
+            _words(None if limit is None else limit * field.display_factor, ".6g"),
+            _words(number.found.order, ".2f"),
+            _words(record["error_of_own"], ".1e"),
+            _words(number.found.index, ".1e"),
+        )
+    console.print(table)
+
+
+def draw(found: Sequence[Refined], path: Path) -> None:
+    """Draw the change of each number of the cycle from level to level, with slopes of orders 1 and 2."""
+    variants = list(dict.fromkeys(number.variant for number in found))
+    figure, axes = plt.subplots(
+        len(variants), len(STUDIES), figsize=(9.0, 3.2 * len(variants)), squeeze=False, sharey=True
+    )
+    for (row, variant), (column, what) in ((a, b) for a in enumerate(variants) for b in enumerate(STUDIES)):
+        axis = axes[row, column]
+        for number in found:
+            if (number.variant, number.study, number.where) == (variant, what, "cycle"):
+                changes = np.abs(np.diff(number.values)) / max(abs(number.values[-1]), np.finfo(float).tiny)
+                axis.loglog(
+                    [1.0, 0.5], np.maximum(changes, 1e-16), "o-", label=FIELDS[number.quantity].symbol
+                )
+        for order, style in ((1, ":"), (2, "--")):
+            axis.loglog([1.0, 0.5], [1e-3, 1e-3 * 0.5**order], style, color="0.5", label=f"order {order}")
+        axis.invert_xaxis()
+        axis.set_title(f"{variant}: {what}")
+        axis.set_xlabel("finer level's spacing over the case's own")
+        axis.set_ylabel("relative change")
+    axes[0, 0].legend(fontsize=7, ncols=2)
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None})
+    plt.close(figure)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit status."""
+    chosen = _arguments(arguments)
+    console = Console(stderr=True)
+    try:
+        file = load_case_file(chosen.case)
+        folder = chosen.output or Path("results") / f"{file.name}-convergence"
+        folder.mkdir(parents=True, exist_ok=True)
+        found = study(file, _chosen(file, chosen.variant), console)
+        records = [number.record() for number in found]
+        write_json(folder / "convergence.json", records)
+        write_text(folder / "convergence.csv", pd.DataFrame(records).to_csv(index=False))
+        draw(found, folder / "convergence.svg")
+    except (CaseError, SolverError, ValidationError) as error:
+        console.print(str(error), markup=False, highlight=False, soft_wrap=True)
+        return WRONG_INPUT
+    except OSError as error:
+        console.print(f"{folder}: cannot be written: {error.strerror or error}", markup=False, soft_wrap=True)
+        return WRONG_INPUT
+    except KeyboardInterrupt:
+        console.print("interrupted; no result was written")
+        return INTERRUPTED
+    output = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
+    print_table(output, found)
+    output.print(f"results in {folder}: convergence.json, .csv and .svg")
+    return 0

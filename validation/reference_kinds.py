@@ -1,9 +1,0 @@
-"""The kinds of reference that a case may state."""
-
-from validation import febio_reference, tables_reference
-from validation.reference import ReferenceKind
-
-REFERENCE_KINDS: dict[str, ReferenceKind] = {
-    "febio": ReferenceKind(febio_reference.align_febio, febio_reference.read_febio),
-    "tables": ReferenceKind(tables_reference.align_tables, tables_reference.read_tables),
-}

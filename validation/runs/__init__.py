@@ -1,0 +1,1 @@
+"""Both models of a variant at the same instants, from the cache or computed."""

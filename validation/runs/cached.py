@@ -1,0 +1,210 @@
+"""Both models of a variant, from the cache where nothing that determines them has changed."""
+
+import hashlib
+import json
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import fields, is_dataclass
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from pydantic import BaseModel
+
+from cases.sections.case import Case
+from validation.errors import ValidationError
+from validation.mapping.rays import Rays
+from validation.reference.alignment import Alignment
+from validation.reference.kind import Progress, Reference, ReferenceKind
+from validation.runs.cache import Cache, Entry
+from validation.runs.provenance import checksum, shown_path
+from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
+
+PACKAGES = ("cases", "solver", "febio_io", "validation")
+LIBRARIES = ("numba", "numpy", "scipy", "vtk")
+
+T = TypeVar("T", ReducedModelRun, Reference)
+Remark = Callable[[str], None]
+
+
+@cache
+def code_digest() -> str:
+    """Digest of all code that results depend on, and of the libraries' versions."""
+    digest = hashlib.sha256(json.dumps({name: version(name) for name in LIBRARIES}).encode())
+    root = Path(__file__).parents[2]
+    for path in sorted(path for package in PACKAGES for path in (root / package).rglob("*.py")):
+        digest.update(str(path.relative_to(root)).encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def canonical(value: Any) -> Any:
+    """Return a value as JSON tells it apart: files by their content, floats with all their digits.
+
+    Raises
+    ------
+    TypeError
+        For a type that has no such form.
+    """
+    if value is None or isinstance(value, str | bool | int):
+        return value
+    if isinstance(value, float | np.floating):
+        return float(value).hex()
+    if isinstance(value, Path):
+        return checksum(value)
+    if isinstance(value, np.ndarray):
+        return {"dtype": str(value.dtype), "values": canonical(value.ravel().tolist())}
+    if isinstance(value, BaseModel):
+        return {name: canonical(getattr(value, name)) for name in type(value).model_fields}
+    if is_dataclass(value):
+        return {field.name: canonical(getattr(value, field.name)) for field in fields(value)}
+    if isinstance(value, Mapping):
+        return {str(name): canonical(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [canonical(each) for each in value]
+    raise TypeError(f"{type(value).__name__} has no canonical form")
+
+
+def key_of(what: str, parts: Mapping[str, Any]) -> str:
+    """Digest of what determines a result: code, libraries, parts of the case, contents of files."""
+    stated = {"what": what, "code": code_digest(), "parts": canonical(parts)}
+    return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
+
+
+def rom_key(case: Case, alignment: Alignment, rays: Rays) -> str:
+    """Key of a run of the reduced model: everything but titles, reference, cells, instants and bands."""
+    model = {
+        name: getattr(case, name)
+        for name in type(case).model_fields
+        if name not in {"title", "reference", "compare"}
+    }
+    return key_of("reduced model", {"case": model, "alignment": alignment, "rays": rays})
+
+
+def reference_key(case: Case, alignment: Alignment, rays: Rays) -> str:
+    """Key of a mapped reference; the names of its files are part of it, for messages show them."""
+    parts = {
+        "reference": case.reference,
+        "files": [shown_path(path) for path in case.input_files],
+        "geometry": case.geometry,
+        "calcification": case.calcification,
+        "inlet": case.inlet,
+        "cells": case.compare.cells,
+        "alignment": alignment,
+        "rays": rays,
+    }
+    return key_of("reference", parts)
+
+
+def cached_reference(
+    store: Cache | None,
+    kind: ReferenceKind,
+    case: Case,
+    rays: Rays,
+    progress: Progress,
+    alignment: Alignment,
+    remark: Remark,
+) -> Reference:
+    """Read a reference, or take it from the cache."""
+
+    def unpacked(entry: Entry) -> Reference:
+        facts = entry.facts
+        return Reference(
+            fields=entry.datasets["fields"],
+            checks=entry.datasets["checks"],
+            alignment=alignment,
+            description=facts["description"],
+            notes=tuple(facts["notes"]),
+            warnings=tuple(facts["warnings"]),
+            sparse=facts["sparse"],
+            cycle=facts["cycle"],
+        )
+
+    def packed(found: Reference) -> Entry:
+        datasets = {"fields": found.fields, "checks": found.checks}
+        facts = {
+            "description": found.description,
+            "notes": list(found.notes),
+            "warnings": list(found.warnings),
+            "sparse": found.sparse,
+            "cycle": dict(found.cycle),
+        }
+        return Entry(datasets, facts)
+
+    return _cached(
+        store,
+        lambda: reference_key(case, alignment, rays),
+        lambda: kind.read(case, rays, progress, alignment),
+        packed,
+        unpacked,
+        remark,
+    )
+
+
+def cached_rom(
+    store: Cache | None, case: Case, alignment: Alignment, rays: Rays, progress: Progress, remark: Remark
+) -> ReducedModelRun:
+    """Run the reduced model, or take its run from the cache."""
+
+    def computed() -> ReducedModelRun:
+        compile_kernels(case)
+        return run_reduced_model(case, alignment, rays, progress)
+
+    def unpacked(entry: Entry) -> ReducedModelRun:
+        facts = entry.facts
+        return ReducedModelRun(
+            fields=entry.datasets["fields"],
+            stiffness=entry.datasets["wall"]["wall_stiffness"],
+            cycle_change=facts["cycle_change"],
+            description=facts["description"],
+        )
+
+    def packed(found: ReducedModelRun) -> Entry:
+        datasets = {"fields": found.fields, "wall": found.stiffness.to_dataset(name="wall_stiffness")}
+        return Entry(datasets, {"cycle_change": found.cycle_change, "description": found.description})
+
+    return _cached(
+        store,
+        lambda: rom_key(case, alignment, rays),
+        computed,
+        packed,
+        unpacked,
+        remark,
+    )
+
+
+def _cached(
+    store: Cache | None,
+    key: Callable[[], str],
+    compute: Callable[[], T],
+    packed: Callable[[T], Entry],
+    unpacked: Callable[[Entry], T],
+    remark: Remark,
+) -> T:
+    """Return what is kept under a key, else compute and keep it; what goes wrong with the cache is said."""
+    if store is None:
+        return _timed(compute)
+    name = key()
+    try:
+        entry = store.get(name)
+        if entry is not None:
+            found = unpacked(entry)
+            found.description["from_cache"] = True
+            return found
+    except (ValidationError, KeyError) as error:
+        remark(f"cache: {error}; computed anew")
+    found = _timed(compute)
+    try:
+        store.put(name, packed(found))
+    except ValidationError as error:
+        remark(f"cache: {error}; the result is not kept")
+    return found
+
+
+def _timed(compute: Callable[[], T]) -> T:
+    """Note in its description how long a result took."""
+    begin = time.perf_counter()
+    found = compute()
+    found.description["wall_time_s"] = round(time.perf_counter() - begin, 3)
+    return found

@@ -1,0 +1,153 @@
+"""Run every variant of a case: its reference onto the cells, and the reduced model at its instants."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from rich.console import Console
+from rich.progress import Progress as Display
+
+from cases.sections.case import Case
+from solver.case.model import grid_of
+from solver.errors import SolverError
+from validation.compare.comparison import VariantRun
+from validation.errors import ValidationError
+from validation.mapping.rays import Rays, rays
+from validation.reference.alignment import Alignment
+from validation.reference.kind import Progress, Reference, ReferenceKind
+from validation.reference.kinds import REFERENCE_KINDS
+from validation.runs.cache import Cache
+from validation.runs.cached import cached_reference, cached_rom
+from validation.runs.reduced_model import ReducedModelRun
+
+WORKERS = 2  # computations at once: mapping and stepping release the interpreter's lock
+
+
+class _StoppedError(Exception):
+    """Another variant failed, or the user interrupted: give up quietly."""
+
+
+@dataclass
+class Watch:
+    """Progress display, cache, wall times and remarks of a comparison's steps."""
+
+    display: Display
+    cache: Cache | None = None
+    stop: threading.Event = field(default_factory=threading.Event)
+    remarks: list[str] = field(default_factory=list)
+    wall_times: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def step(self, name: str) -> Iterator[Progress]:
+        """Time one step under ``name`` and show how far it is."""
+        task = self.display.add_task(name, total=None)
+        begin = time.perf_counter()
+
+        def update(done: float, total: float) -> None:
+            if self.stop.is_set():
+                raise _StoppedError
+            self.display.update(task, completed=done, total=total)
+
+        yield update
+        passed = self.wall_times.get(name, 0.0) + time.perf_counter() - begin
+        self.wall_times[name] = round(passed, 3)
+        self.display.update(task, completed=1, total=1)
+
+
+@contextmanager
+def watching(cache: Cache | None = None) -> Iterator[Watch]:
+    """Show progress on standard error if it is a terminal, nothing otherwise."""
+    console = Console(stderr=True)
+    with Display(console=console, transient=True, disable=not console.is_terminal) as display:
+        yield Watch(display, cache)
+
+
+def align_variants(cases: Mapping[str, Case]) -> dict[str, Alignment]:
+    """Instants of every variant's reference.
+
+    Raises
+    ------
+    ValidationError
+        If a case states no reference; else as the kind of reference raises.
+    """
+    return {name: kind_of(name, case).align(case) for name, case in cases.items()}
+
+
+def kind_of(name: str, case: Case) -> ReferenceKind:
+    """Kind of a variant's reference."""
+    if case.reference is None:
+        raise ValidationError(f"variant {name!r} states no reference")
+    return REFERENCE_KINDS[case.reference.kind]
+
+
+def run_variants(
+    cases: Mapping[str, Case],
+    alignments: Mapping[str, Alignment],
+    watch: Watch,
+    meanwhile: Callable[[], None] = lambda: None,
+) -> Iterator[tuple[str, VariantRun]]:
+    """Map all references and run the reduced models, two at a time, and give each variant as it is done.
+
+    References take longest, so they go first and the short runs fill what processor is left over. The
+    order of variants may be any. The first error stops the others and is raised.
+
+    Parameters
+    ----------
+    cases, alignments : mapping
+        By variant.
+    watch : Watch
+    meanwhile : callable, optional
+        Called here once while others compute.
+
+    Raises
+    ------
+    ValidationError
+        As the kind of reference and the solver raise.
+    """
+    pool = ThreadPoolExecutor(max_workers=WORKERS)
+    try:
+        references = {
+            name: pool.submit(_reference, name, case, alignments[name], watch) for name, case in cases.items()
+        }
+        roms = {
+            name: pool.submit(_reduced_model, name, case, alignments[name], watch)
+            for name, case in cases.items()
+        }
+        meanwhile()
+        names: dict[Future[Any], str] = {part[name]: name for part in (references, roms) for name in cases}
+        for future in as_completed(names):
+            name = names.pop(future)
+            future.result()
+            del future  # and with it what it gave
+            if name not in names.values():
+                yield name, VariantRun(cases[name], roms.pop(name).result(), references.pop(name).result())
+    finally:
+        watch.stop.set()
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _reference(name: str, case: Case, alignment: Alignment, watch: Watch) -> Reference:
+    """Map the reference of one variant."""
+    with watch.step(f"{name}: 3D onto cells") as progress:
+        kind = kind_of(name, case)
+        return cached_reference(
+            watch.cache, kind, case, _points(case), progress, alignment, watch.remarks.append
+        )
+
+
+def _reduced_model(name: str, case: Case, alignment: Alignment, watch: Watch) -> ReducedModelRun:
+    """Run the reduced model of one variant at the instants of its reference."""
+    with watch.step(f"{name}: reduced model") as progress:
+        try:
+            return cached_rom(watch.cache, case, alignment, _points(case), progress, watch.remarks.append)
+        except SolverError as error:
+            raise ValidationError(f"variant {name!r}: {error}") from error
+
+
+def _points(case: Case) -> Rays:
+    grid = grid_of(case)
+    return rays(grid.x, grid.phi)
