@@ -3,12 +3,12 @@
 from dataclasses import replace
 from pathlib import Path
 
-from reports.ablation import ablation_section
-from reports.content import report
-from reports.drawn import draw, helper
+from reports.figures.drawn import draw, helper
 from reports.gallery import Entry, entry, gallery_place, render_gallery
-from reports.load import load
 from reports.pages import rendered, write_pages
+from reports.result.load import load
+from reports.sections.ablation import ablation_section
+from reports.sections.content import report
 from reports.sweep.build import is_sweep, write_sweep_entry
 
 

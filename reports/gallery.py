@@ -8,8 +8,8 @@ from urllib.parse import quote
 
 from reports.blocks import Report
 from reports.html.render import environment
-from reports.load import Comparison
-from reports.verdict import by_variant, headline
+from reports.result.load import Comparison
+from reports.sections.verdict import by_variant, headline
 
 RANKS = {"FAIL": 0, "MISSING": 1, "OK": 2}
 

@@ -5,12 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, Table, Warnings
-from reports.metrics import Status
-from reports.numbers import ABSENT, counted, listed, rounded, share
+from reports.result.metrics import Status
 from reports.sweep.held import Held, sentence
 from reports.sweep.load import FAILED, Sweep
 from reports.sweep.study_file import Output, Parameter
 from reports.sweep.words import DESIGNS, amount, ends, is_error
+from reports.wording.numbers import ABSENT, counted, listed, rounded, share
 
 _MOST_FAILURES = 200
 _AGAINST = {

@@ -4,9 +4,8 @@ from collections import Counter
 from pathlib import Path
 
 from reports.blocks import Report
-from reports.drawn import draw
+from reports.figures.drawn import draw
 from reports.gallery import RANKS, Entry
-from reports.numbers import counted, listed
 from reports.pages import rendered, write_pages
 from reports.sweep.account import failures_section, headline, provenance_section, status, verdict_section
 from reports.sweep.held import all_held, sentence
@@ -15,6 +14,7 @@ from reports.sweep.load import STUDY, Sweep, load_sweep
 from reports.sweep.page_data import page_data
 from reports.sweep.responses import held_section, responses_section
 from reports.sweep.words import DESIGNS
+from reports.wording.numbers import counted, listed
 
 HTML, PDF = "index.html", "index.pdf"
 

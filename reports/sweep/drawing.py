@@ -15,9 +15,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from reports.drawing import STYLE, WIDTH, legend_above, svg_text
-from reports.figures import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
-from reports.heat_maps import edges_of, scale_colours
+from reports.figures.curves import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
+from reports.figures.drawing import STYLE, WIDTH, legend_above, svg_text
+from reports.figures.heat_maps import edges_of, scale_colours
 from reports.sweep.words import steady
 
 Array = NDArray[np.float64]

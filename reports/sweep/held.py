@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from reports.numbers import SPACE, counted
 from reports.sweep.load import Sweep
 from reports.sweep.study_file import Band, Output, Parameter
 from reports.sweep.words import amount
+from reports.wording.numbers import SPACE, counted
 
 _WORTH_SAYING = 0.2  # of the samples that one parameter alone decides
 

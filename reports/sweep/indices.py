@@ -5,11 +5,11 @@ from functools import partial
 import numpy as np
 
 from reports.blocks import Block, Column, Figure, Paragraph, Section, Subsection, Table
-from reports.numbers import ABSENT, fixed
 from reports.sweep.drawing import Array, Bars, index_bars
 from reports.sweep.load import Sweep
 from reports.sweep.study_file import Index, Output
-from reports.tabular import comma_separated
+from reports.wording.numbers import ABSENT, fixed
+from reports.wording.tabular import comma_separated
 
 _PANELS = 6  # outputs of one figure
 _KINDS = ("S1", "S1_conf", "ST", "ST_conf")

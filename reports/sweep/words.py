@@ -3,8 +3,8 @@
 import math
 import re
 
-from reports.numbers import ABSENT, SPACE, rounded, with_unit
 from reports.sweep.study_file import Output, Parameter
+from reports.wording.numbers import ABSENT, SPACE, rounded, with_unit
 
 _LEAST, _MOST = 1e-4, 1e6  # sizes that are written without a power of ten
 _LEAST_SPREAD = 1e-4  # of a value, that is worth digits

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from reports import ReportError
-from reports.ablation import ablation_section
+from reports.sections.ablation import ablation_section
 
 ROW = {
     "variant": "local",

@@ -14,12 +14,12 @@ import typst
 import xarray as xr
 
 from cases.fields import FIELDS
-from reports import cycle
-from reports.content import report
-from reports.drawn import draw
-from reports.load import load
-from reports.numbers import DIFFERENCE_UNITS
+from reports.figures.drawn import draw
 from reports.pdf.render import render_pdf
+from reports.result.load import load
+from reports.sections import cycle
+from reports.sections.content import report
+from reports.wording.numbers import DIFFERENCE_UNITS
 
 Finished = tuple[Path, list[dict[str, Any]]]
 CLAIM = re.compile(

@@ -10,9 +10,9 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports import assumptions, change, cycle, provenance, velocity, verdict
 from reports.blocks import Bullets, Figure, Paragraph, Section, Subsection, Table, Warnings
-from reports.load import load
+from reports.result.load import load
+from reports.sections import assumptions, change, cycle, provenance, velocity, verdict
 
 Rows = list[dict[str, Any]]
 

@@ -5,9 +5,9 @@ import json
 import pytest
 from synthetic_comparison import Setup, write
 
-from reports import cost
 from reports.errors import ReportError
-from reports.load import load
+from reports.result.load import load
+from reports.sections import cost
 
 COST = {
     "log": "none.log",

@@ -4,11 +4,11 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reports.drawn import draw, helper
-from reports.figures import small_multiples
-from reports.heat_maps import cell_borders
-from reports.panels import Curves, PanelRow
-from reports.tubes import Tube, tubes
+from reports.figures.curves import small_multiples
+from reports.figures.drawn import draw, helper
+from reports.figures.heat_maps import cell_borders
+from reports.figures.panels import Curves, PanelRow
+from reports.figures.tubes import Tube, tubes
 
 
 def _drawing(label: str) -> partial[str]:

@@ -7,9 +7,9 @@ import pytest
 import synthetic_comparison as synthetic
 
 from reports.__main__ import main
-from reports.content import report
 from reports.gallery import entry, gallery_place, render_gallery
-from reports.load import load
+from reports.result.load import load
+from reports.sections.content import report
 
 
 def _band(limit: float, quantity: str = "radius") -> dict[str, object]:

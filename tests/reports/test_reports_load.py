@@ -13,7 +13,7 @@ import xarray as xr
 
 from reports.__main__ import main
 from reports.errors import ReportError
-from reports.load import load
+from reports.result.load import load
 
 
 def _change_dataset(directory: Path, change: Callable[[xr.Dataset], xr.Dataset]) -> None:

@@ -10,10 +10,11 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports import assumptions, exponents, maps, write_reports
+from reports import write_reports
 from reports.blocks import Figure, Paragraph, Section, Subsection, Table
-from reports.heat_maps import MapRow, Maps, heat_maps
-from reports.load import load
+from reports.figures.heat_maps import MapRow, Maps, heat_maps
+from reports.result.load import load
+from reports.sections import assumptions, exponents, maps
 
 Rows = list[dict[str, Any]]
 

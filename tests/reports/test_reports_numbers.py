@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reports import numbers
+from reports.wording import numbers
 
 finite = st.floats(min_value=-1e9, max_value=1e9)
 

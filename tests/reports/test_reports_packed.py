@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from reports.load import load
-from reports.packed import ABSENT, LEVELS, Packed, pack
-from reports.page_data import page_data
+from reports.html.packed import ABSENT, LEVELS, Packed, pack
+from reports.html.page_data import page_data
+from reports.result.load import load
 
 
 def unpack(packed: Packed) -> np.ndarray:

@@ -9,12 +9,12 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports import artery, verdict
 from reports.blocks import Paragraph, Subsection, Table
-from reports.content import report
-from reports.load import Comparison, load
-from reports.page_data import _artery
-from reports.stated import left_out
+from reports.html.page_data import _artery
+from reports.result.load import Comparison, load
+from reports.result.stated import left_out
+from reports.sections import artery, verdict
+from reports.sections.content import report
 
 
 def comparison(reference):

@@ -2,8 +2,8 @@
 
 from types import SimpleNamespace
 
-from reports import change_apart, further, pooled
-from reports.metrics import Metrics, Row
+from reports.result.metrics import Metrics, Row
+from reports.sections import change_apart, further, pooled
 
 
 def row(statistic, error, rom=None, reference=None, variant="local"):

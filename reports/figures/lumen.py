@@ -1,0 +1,52 @@
+"""Fields on all cells of the lumen at one instant: arrays for maps, and their data."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from reports.wording.tabular import comma_separated
+
+Array = NDArray[np.float64]
+
+CELL_COLUMNS = ("t_s", "i", "j", "x_m", "phi_rad")
+DIGITS = 6  # thousands of cells: more would double the report
+WITHOUT_INSTANT = "The case names no instant to show maps at."
+
+
+def field(data: xr.Dataset, name: str, factor: float = 1.0) -> Array:
+    """Values of a variable times `factor`."""
+    return factor * data[name].values.astype(float)
+
+
+def centres(data: xr.Dataset) -> tuple[Array, Array]:
+    """Centres of the cells: x in mm, φ in degrees."""
+    return 1e3 * data["x"].values, np.degrees(data["phi"].values)
+
+
+def outlined(data: xr.Dataset) -> str:
+    """Say what the frame in a map is; "" where there is none."""
+    return " Framed: the calcified cells." if bool(data["calcified"].any()) else ""
+
+
+def cells_csv(instants: Sequence[tuple[float, xr.Dataset]], names: Sequence[str]) -> str:
+    """All cells at each of the (time, fields), SI."""
+    texts = (cells_text(t_s, data, names) for t_s, data in instants)
+    return "".join((cells_header((), names), *texts))
+
+
+def cells_header(first: Sequence[str], names: Sequence[str]) -> str:
+    """First line of the data of all cells, below which :func:`cells_text` fits."""
+    return comma_separated((*first, *CELL_COLUMNS, *names), ())
+
+
+def cells_text(t_s: float, data: xr.Dataset, names: Sequence[str], first: Sequence[str] = ()) -> str:
+    """Lines of all cells at one time: what stands `first` in each, the columns of a cell, the variables."""
+    x, phi = np.meshgrid(data["x"].values, data["phi"].values, indexing="ij")
+    i, j = np.indices(x.shape) + 1
+    columns = [values.ravel().tolist() for values in (i, j, x, phi, *(field(data, name) for name in names))]
+    number = f"%.{DIGITS}g"
+    start = comma_separated((*first, f"{t_s:.{DIGITS}g}"), ()).rstrip("\n").replace("%", "%%")
+    line = f"{start},%d,%d" + f",{number}" * (len(columns) - 2) + "\n"
+    return "".join([line % row for row in zip(*columns, strict=True)])  # a line at once: there are thousands

@@ -1,0 +1,1 @@
+"""A finished comparison's directory, read and checked before anything is drawn."""

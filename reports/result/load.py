@@ -1,0 +1,179 @@
+"""A finished comparison directory, read and checked before anything is drawn."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from reports.errors import ReportError
+from reports.result.consistency import check_consistency
+from reports.result.dataset import MODELS, opened, read_attributes, read_profiles
+from reports.result.metrics import Metrics, read_metrics
+from reports.result.provenance_file import Provenance, read_provenance
+
+FIELDS = ("pressure", "radius", "sector_flow_rate", "section_flow_rate", "profile_exponent")
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What a report needs of one comparison.
+
+    Attributes
+    ----------
+    case, title, baseline, case_yaml : str
+        Name, heading, variant without calcification ("" for none), the case file's text.
+    variants : tuple of str
+        In the order of the case file.
+    period : float
+        Of the cycle (s).
+    i, j : tuple of int
+        Cells to show, counted from 1.
+    x, phi : tuple of float
+        Their centres (m, rad).
+    n_phi : int
+        Cells around the artery.
+    times : tuple of (str, float)
+        Named instants and their times into the cycle (s).
+    baselines : dict of str to str
+        Of each variant that has one, the variant that its changes are counted from.
+    sparse : bool
+        Whether the reference states some values only; NaN is what it does not.
+    fields : xarray.Dataset
+        Both models' pressure, radius, sector and section flow rate, profile exponent, and the error of the
+        profile closest to 3D, over the cycle on all cells; which cells are calcified.
+    curves : xarray.Dataset
+        The same at columns `i`, all φ.
+    profiles : xarray.Dataset
+        Both models' axial velocity (m/s) at the shown cells over the cycle, over y = r/R.
+    maps : xarray.Dataset
+        The fields at the named instants.
+    error_curves : xarray.DataArray
+        At the named instants and shown cells, relative error of the closest profile over its exponent.
+    pressure_range_over_section : xarray.Dataset
+        Of both models and each variant, the largest range over φ of the pressure in a section (Pa).
+    wall_varies_around : dict of str to bool
+        Whether a variant's wall stiffness depends on φ.
+    metrics : Metrics
+        Every figure of the comparison.
+    provenance : Provenance
+        What provenance.json holds.
+    """
+
+    case: str
+    title: str
+    baseline: str
+    case_yaml: str
+    variants: tuple[str, ...]
+    period: float
+    i: tuple[int, ...]
+    j: tuple[int, ...]
+    x: tuple[float, ...]
+    phi: tuple[float, ...]
+    n_phi: int
+    times: tuple[tuple[str, float], ...]
+    baselines: dict[str, str]
+    sparse: bool
+    fields: xr.Dataset
+    curves: xr.Dataset
+    profiles: xr.Dataset
+    maps: xr.Dataset
+    error_curves: xr.DataArray
+    pressure_range_over_section: xr.Dataset
+    wall_varies_around: dict[str, bool]
+    metrics: Metrics
+    provenance: Provenance
+
+    @property
+    def states(self) -> tuple[int, ...]:
+        """Numbers of the states at the named instants, counted from 0."""
+        time = self.fields["time"].values
+        return tuple(int(np.abs(time - t).argmin()) for _, t in self.times)
+
+    def calcified(self, variant: str, i: int, j: int | None = None) -> bool:
+        """Whether cell (i, j), or any cell of section i, is inside the calcification."""
+        inside = self.fields["calcified"].sel(variant=variant).values[i - 1]
+        return bool(inside.any() if j is None else inside[j - 1])
+
+    @property
+    def changed(self) -> tuple[str, ...]:
+        """Variants that have another one as their baseline."""
+        return tuple(name for name in self.variants if name in self.baselines)
+
+    def rows_of(self, variant: str) -> tuple[int, ...]:
+        """Rows j worth showing: one where the wall is the same all around, else all."""
+        return self.j if self.wall_varies_around[variant] else self.j[:1]
+
+
+def load(directory: Path) -> Comparison:
+    """Read comparison.nc, metrics.json and provenance.json of `directory`.
+
+    Raises
+    ------
+    ReportError
+        If a file, variable, attribute, key or row is absent, does not fit or contradicts another; the
+        message says which.
+    """
+    if not directory.is_dir():
+        raise ReportError(f"{directory}: not a directory")
+    paths = {name: directory / name for name in ("comparison.nc", "metrics.json", "provenance.json")}
+    for path in paths.values():
+        if not path.is_file():
+            raise ReportError(f"{path}: no such file; a finished comparison has one")
+    provenance = read_provenance(paths["provenance.json"])
+    metrics = read_metrics(paths["metrics.json"])
+    with opened(paths["comparison.nc"]) as dataset:
+        return _comparison(directory, dataset, metrics, provenance)
+
+
+def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenance: Provenance) -> Comparison:
+    path = directory / "comparison.nc"
+    attributes = read_attributes(path, dataset)
+    variants = tuple(str(name) for name in dataset["variant"].values)
+    check_consistency(directory, variants, attributes, metrics, provenance)
+    columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
+    states = [int(np.abs(dataset["time"].values - t).argmin()) for _, t in attributes.times]
+    fields = dataset[[*_both(FIELDS), "reference_profile_error", "calcified"]].load()
+    return Comparison(
+        case=attributes.case,
+        title=attributes.title,
+        baseline=attributes.baseline,
+        case_yaml=attributes.case_yaml,
+        variants=variants,
+        period=attributes.period,
+        i=attributes.i,
+        j=attributes.j,
+        x=tuple(dataset["x"].values[columns].tolist()),
+        phi=tuple(dataset["phi"].values[rows].tolist()),
+        n_phi=dataset.sizes["phi"],
+        times=attributes.times,
+        baselines=attributes.baselines,
+        sparse=bool(dataset.attrs.get("sparse_reference")),
+        fields=fields,
+        curves=fields.isel(x=columns),
+        profiles=read_profiles(path, dataset, columns, rows),
+        maps=fields.isel(time=states),
+        error_curves=dataset["reference_profile_error_curve"].load(),
+        pressure_range_over_section=_pressure_range(fields[_both(("pressure",))]),
+        wall_varies_around=_varies_around(dataset["wall_stiffness"].load()),
+        metrics=metrics,
+        provenance=provenance,
+    )
+
+
+def _both(names: Sequence[str]) -> list[str]:
+    return [f"{model}_{name}" for model in MODELS for name in names]
+
+
+def _pressure_range(pressure: xr.Dataset) -> xr.Dataset:
+    return (pressure.max("phi") - pressure.min("phi")).max(("time", "x"))
+
+
+def _varies_around(stiffness: xr.DataArray) -> dict[str, bool]:
+    return {
+        str(wall["variant"].item()): bool(
+            np.ptp(wall.values, axis=-1).max() > 1e-9 * np.abs(wall.values).max()
+        )
+        for wall in stiffness
+    }

@@ -1,0 +1,169 @@
+"""What provenance.json holds."""
+
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, TypeAdapter
+
+from reports.result.strict_json import read_json
+
+Checksum = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(strict=True, frozen=True, allow_inf_nan=False)
+
+
+class CaseFile(_Record):
+    """The case file, by checksum."""
+
+    path: str
+    sha256: Checksum
+
+
+class InputFile(CaseFile):
+    """A file that was read."""
+
+    bytes: int
+
+
+class _Settings(_Record):
+    """Named facts of a run; those that the report uses itself are declared below, all are listed."""
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, JsonValue]
+
+    def facts(self) -> dict[str, JsonValue]:
+        """All facts that the file holds, in its order where the report has no use of its own for them."""
+        return {**self.__pydantic_extra__, **self.model_dump(include=self.model_fields_set)}
+
+
+Count = Annotated[int, Field(ge=0)]
+Amount = Annotated[float, Field(ge=0)]
+
+
+class ReducedModelSettings(_Settings):
+    """How the 2D model ran.
+
+    Attributes
+    ----------
+    cycles : int, optional
+        Cycles of the inlet that it ran.
+    cycle_change : float, optional
+        Largest relative change of its pressure and flow rate over its last cycle.
+    steps : int, optional
+        Time steps of all cycles.
+    simulation_wall_time_s : float, optional
+        Wall time of its run when it was computed, without compiling, s.
+    """
+
+    cycles: Count | None = None
+    cycle_change: Amount | None = None
+    steps: Count | None = None
+    simulation_wall_time_s: Amount | None = None
+
+    def facts(self) -> dict[str, JsonValue]:
+        """All facts but the cost, which has a table of its own."""
+        return {
+            k: v for k, v in super().facts().items() if k not in ("wall_time_s", "simulation_wall_time_s")
+        }
+
+
+class SimulationCost(_Record):
+    """What the 3D simulation took, as its log tells; None where it does not."""
+
+    log: str
+    febio_version: str | None
+    ended: str
+    wall_time_s: Amount | None
+    simulated_s: Amount | None
+    time_steps: Count
+    retries: Count
+    iterations: Count
+    equations: Count | None
+
+
+class RecordCheck(_Record):
+    """Values that FEBio wrote as text beside the plot file's: largest difference over largest value."""
+
+    file: str
+    columns: tuple[str, ...]
+    instants: Count
+    values: Count
+    largest_difference: Amount | None
+
+
+class ReferenceSettings(_Settings):
+    """What the 3D reference is.
+
+    Attributes
+    ----------
+    coverage : float, optional
+        Share of the cycle that its states cover, 0 … 1.
+    simulation : str, optional
+        "3D" or "2D", where a table holds the results of both.
+    cost : SimulationCost, optional
+        What it took.
+    data_records : tuple of RecordCheck
+        What was compared with the plot file.
+    """
+
+    coverage: Share | None = None
+    simulation: str | None = None
+    cost: SimulationCost | None = None
+    data_records: tuple[RecordCheck, ...] = ()
+
+    def facts(self) -> dict[str, JsonValue]:
+        """All facts but those that have tables of their own."""
+        return {k: v for k, v in super().facts().items() if k not in ("cost", "data_records", "wall_time_s")}
+
+
+class VariantRecord(_Record):
+    """Both models of one variant."""
+
+    rom: ReducedModelSettings
+    reference: ReferenceSettings
+
+
+class DeclaredBand(_Record):
+    """A limit with its reason and the variants it is for; without `variants`, all."""
+
+    quantity: str
+    statistic: str
+    limit: Annotated[float, Field(ge=0)]
+    reason: str
+    variants: tuple[str, ...] | None = None
+
+
+class Provenance(_Record):
+    """What the comparison was made from, and how."""
+
+    created: str
+    command: str
+    git_commit: str | None
+    package_version: str | None
+    python: str
+    versions: dict[str, str]
+    machine: dict[str, JsonValue]
+    case: CaseFile
+    inputs: tuple[InputFile, ...]
+    wall_times_s: dict[str, float]
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
+    variants: dict[str, VariantRecord]
+    bands: tuple[DeclaredBand, ...]
+
+
+_SCHEMA = TypeAdapter(Provenance)
+
+
+def read_provenance(path: Path) -> Provenance:
+    """Read provenance.json.
+
+    Raises
+    ------
+    ReportError
+        If a key is absent or its value is of another type than declared above.
+    """
+    return read_json(path, _SCHEMA)

@@ -1,0 +1,1 @@
+"""What a report says: an ordered list of sections, a module each."""

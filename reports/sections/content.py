@@ -1,0 +1,54 @@
+"""What the report says, once, for every rendering."""
+
+from reports.blocks import Report
+from reports.html.page_data import page_data
+from reports.result.load import Comparison
+from reports.sections import (
+    artery,
+    assumptions,
+    change,
+    cycle,
+    exponents,
+    maps,
+    provenance,
+    velocity,
+    verdict,
+)
+from reports.wording.numbers import counted, listed
+
+
+def identity(comparison: Comparison) -> str:
+    """Case, commit and date of a run in one line."""
+    commit = comparison.provenance.git_commit
+    return " · ".join(
+        (
+            comparison.case,
+            f"commit {commit[:9]}" if commit else "no commit",
+            comparison.provenance.created[:10],
+        )
+    )
+
+
+def report(comparison: Comparison) -> Report:
+    """Compose the report of a comparison; every figure is drawn here."""
+    return Report(
+        title=comparison.title or comparison.case,
+        subtitle="A two-dimensional reduced-order model of the artery (2D) against three-dimensional "
+        f"fluid–structure simulation (3D), cell by cell: {counted(len(comparison.variants), 'variant')}, "
+        f"{listed(comparison.variants)}.",
+        identity=identity(comparison),
+        created=comparison.provenance.created,
+        sections=(
+            verdict.section(comparison),
+            change.section(comparison),
+            cycle.section(comparison),
+            velocity.section(comparison),
+            exponents.section(comparison),
+            maps.section(comparison),
+            assumptions.dominance_section(comparison),
+            assumptions.checks_section(comparison),
+            artery.section(comparison),
+            provenance.section(comparison),
+        ),
+        data=page_data(comparison),
+    )

@@ -1,0 +1,102 @@
+"""What the 3D simulation took beside the 2D model, and whether its own records confirm its plot file."""
+
+from reports.blocks import Column, Table
+from reports.result.load import Comparison
+from reports.result.provenance_file import ReducedModelSettings, SimulationCost
+from reports.wording.numbers import ABSENT, SPACE, rounded, with_unit
+
+
+def cost_table(comparison: Comparison) -> Table | None:
+    """Return the cost of each variant in both models; None where no log tells that of 3D."""
+    of_3d = {name: comparison.provenance.variants[name].reference.cost for name in comparison.variants}
+    rows = tuple(_cost_row(comparison, name, cost) for name, cost in of_3d.items() if cost is not None)
+    if not rows:
+        return None
+    return Table(
+        "cost",
+        "Cost of the simulations: 3D as told by the log, on the machine where it ran; 2D as measured when it "
+        "was computed, without compiling, perhaps beside another variant. The last column is "
+        "wall time per simulated cycle over the same of 2D, whatever the machines.",
+        (
+            Column("variant"),
+            Column("wall time", "number", "3D"),
+            Column("simulated", "number", "3D"),
+            Column("steps", "number", "3D"),
+            Column("iterations", "number", "3D"),
+            Column("equations", "number", "3D"),
+            Column("ended", "prose", "3D"),
+            Column("wall time", "number", "2D"),
+            Column("cycles", "number", "2D"),
+            Column("steps", "number", "2D"),
+            Column("3D over 2D", "number"),
+        ),
+        rows,
+    )
+
+
+def _cost_row(comparison: Comparison, name: str, cost: SimulationCost) -> tuple[str, ...]:
+    two = comparison.provenance.variants[name].rom
+    retries = f" ({cost.retries} retried)" if cost.retries else ""
+    version = f"FEBio {cost.febio_version}" if cost.febio_version else "FEBio"
+    return (
+        name,
+        _duration(cost.wall_time_s),
+        with_unit(rounded(cost.simulated_s), "s"),
+        f"{cost.time_steps}{retries}",
+        str(cost.iterations),
+        ABSENT if cost.equations is None else str(cost.equations),
+        f"{cost.ended} ({version})",
+        _duration(two.simulation_wall_time_s),
+        ABSENT if two.cycles is None else str(two.cycles),
+        ABSENT if two.steps is None else str(two.steps),
+        rounded(_per_cycle(comparison.period, cost, two), 2),
+    )
+
+
+def _per_cycle(period: float, cost: SimulationCost, two: ReducedModelSettings) -> float | None:
+    """Wall time of a cycle in 3D over that in 2D; None where either, or how much it simulated, is unknown."""
+    if not (cost.wall_time_s and cost.simulated_s and two.simulation_wall_time_s and two.cycles):
+        return None
+    return (cost.wall_time_s / (cost.simulated_s / period)) / (two.simulation_wall_time_s / two.cycles)
+
+
+def _duration(seconds: float | None) -> str:
+    """E.g. "15.8 min"; days for what takes days."""
+    if seconds is None:
+        return ABSENT
+    for size, unit in ((86400.0, "d"), (3600.0, "h"), (60.0, "min")):
+        if seconds >= 2 * size:
+            return with_unit(rounded(seconds / size, 3), unit)
+    return with_unit(rounded(seconds, 3), "s")
+
+
+def records_table(comparison: Comparison) -> Table | None:
+    """Return what FEBio's text records say of its plot files; None without such records."""
+    rows = tuple(
+        (
+            name,
+            record.file,
+            ", ".join(record.columns),
+            str(record.instants),
+            str(record.values),
+            ABSENT if record.largest_difference is None else f"{record.largest_difference:.1e}",
+        )
+        for name in comparison.variants
+        for record in comparison.provenance.variants[name].reference.data_records
+    )
+    if not rows:
+        return None
+    return Table(
+        "data-records",
+        "Values that FEBio wrote as text during the run, beside those of its plot file: largest difference "
+        f"over the largest value. Plot files are in single precision, about 6{SPACE}·{SPACE}10⁻⁸.",
+        (
+            Column("variant"),
+            Column("record", "prose"),
+            Column("columns", "prose"),
+            Column("instants", "number"),
+            Column("values", "number"),
+            Column("difference", "number"),
+        ),
+        rows,
+    )

@@ -1,0 +1,121 @@
+"""Section 5: the exponent of the velocity profile closest to 3D, beside that of the 2D model."""
+
+from functools import partial
+
+import numpy as np
+import xarray as xr
+
+from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
+from reports.figures.heat_maps import MapRow, Maps, heat_maps
+from reports.figures.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
+from reports.result.load import Comparison
+from reports.result.stated import mostly, stated_variants
+from reports.sections import error_curves
+from reports.wording.numbers import SPACE, percent, span, unsigned
+from reports.wording.words import spot, top_to_bottom
+
+
+def _row(data: xr.Dataset, label: str, limits: tuple[float, float] | None) -> MapRow:
+    both = tuple(field(data, f"{model}_profile_exponent") for model in ("reference", "rom"))
+    return MapRow(
+        label,
+        (
+            Maps(both, "γ", limits=limits),
+            Maps((field(data, "reference_profile_error", 100.0),), "error of the fit (%)"),
+        ),
+    )
+
+
+def _exponents(data: xr.Dataset) -> Array:
+    both = [field(data, f"{model}_profile_exponent").ravel() for model in ("reference", "rom")]
+    values = np.concatenate(both)
+    return values[np.isfinite(values)]
+
+
+def _worst_fit(comparison: Comparison, data: xr.Dataset) -> str:
+    errors = field(data, "reference_profile_error")
+    if not np.isfinite(errors).any():
+        return ""
+    state, i, j = np.unravel_index(int(np.nanargmax(errors)), errors.shape)
+    median = unsigned(percent(float(np.nanmedian(errors))))
+    largest = unsigned(percent(float(errors[state, i, j])))
+    where = spot(int(i) + 1, int(j) + 1, comparison.times[int(state)][1])
+    return f" The closest profile is off 3D by {median} in the median, by {largest} at most ({where})."
+
+
+def _spans(data: xr.Dataset) -> str:
+    spans = []
+    for model, name in (("reference", "3D"), ("rom", "2D")):
+        values = field(data, f"{model}_profile_exponent")
+        values = values[np.isfinite(values)]
+        if values.size:
+            spans.append(f"{span(float(values.min()), float(values.max()), 2)} in {name}")
+    return f"γ is {' and '.join(spans)}" if spans else "γ is nowhere finite"
+
+
+def _figure(comparison: Comparison, variant: str, key: str) -> Figure:
+    data = comparison.maps.sel(variant=variant)
+    found = _exponents(data)
+    limits = (float(found.min()), float(found.max())) if found.size else None
+    states = [data.isel(time=k) for k in range(len(comparison.times))]
+    when = top_to_bottom(comparison.times)
+    summary = f"{_spans(data)}.{_worst_fit(comparison, data)}"
+    instants = list(zip((t for _, t in comparison.times), states, strict=True))
+    columns = ("rom_profile_exponent", "reference_profile_exponent", "reference_profile_error")
+    return Figure(
+        key=key,
+        caption=f"Variant {variant}, {when}: exponent γ of the profile closest to "
+        f"3D, exponent of the 2D model, and how far the closest profile still is from 3D. {summary}"
+        f"{outlined(data)}",
+        alt=f"Maps over x and φ of the exponent closest to 3D, of the 2D exponent and of the error of the "
+        f"closest profile, variant {variant}, {when}. {summary}",
+        drawing=partial(
+            heat_maps,
+            *centres(data),
+            ("3D: closest γ", "2D: γ", "3D: error of the closest profile"),
+            [_row(state, f"t = {t:.3f} s", limits) for t, state in instants],
+            data["calcified"].values > 0,
+        ),
+        csv=cells_csv(instants, columns),
+    )
+
+
+def section(comparison: Comparison) -> Section:
+    """Build the section of the closest profile exponents."""
+    title = "Closest γ"
+    if not comparison.times:
+        return Section("exponents", title, (Paragraph(WITHOUT_INSTANT),))
+    opening = Paragraph(
+        f"The 2D model assumes v{SPACE}={SPACE}v₀{SPACE}(1{SPACE}−{SPACE}(r/R)^γ) along each ray. In 3D, γ "
+        "is that of the closest such profile; where its error is large, no γ describes the 3D profile."
+    )
+    stated = comparison.maps["reference_profile_exponent"]
+    shown, told = stated_variants(
+        comparison, lambda name: mostly(stated.sel(variant=name).values), "profiles to fit an exponent to"
+    )
+    any_cell = Interactive(
+        "exponents-anywhere",
+        "errors",
+        "The error over γ, with its values",
+        "Choose a variant, a time and a cell; point at the curve for its values.",
+    )
+    return Section(
+        "exponents",
+        title,
+        (
+            opening,
+            *told,
+            *((any_cell,) if shown else ()),
+            *(
+                Subsection(
+                    f"exponents-{k}",
+                    f"Variant {name}",
+                    (
+                        *error_curves.figures(comparison, name, f"exponents-{k}-errors"),
+                        _figure(comparison, name, f"exponents-{k}-figure"),
+                    ),
+                )
+                for k, name in shown
+            ),
+        ),
+    )

@@ -1,0 +1,90 @@
+"""The errors over all cells and states, a line for each quantity and variant."""
+
+from reports.blocks import Column, Table
+from reports.result.load import Comparison
+from reports.result.metrics import Row
+from reports.wording.numbers import ABSENT, DIFFERENCE_UNITS, SPACE, percent, rounded, unsigned, with_unit
+from reports.wording.words import place, quantity_words
+
+_STATISTICS = ("bias", "scatter", "rms_error", "max_error")
+_ABSOLUTE = "rms_difference"
+
+
+def table(comparison: Comparison) -> Table | None:
+    """Return the table; None where nothing was pooled. Quantities with the same figures share a line."""
+    found: dict[tuple[str, str], dict[str, Row]] = {}
+    for statistic in (*_STATISTICS, _ABSOLUTE):
+        for row in comparison.metrics.pooled(statistic):
+            found.setdefault((row.variant, row.quantity), {})[statistic] = row
+    if not found:
+        return None
+    lines: dict[tuple[str, ...], list[tuple[str, str]]] = {}
+    for variant in comparison.variants:
+        for (name, quantity), by in found.items():
+            if name == variant:
+                largest = by.get("max_error")
+                where = place(largest) if largest and not _round_off(largest) else ABSENT
+                figures = _figures(by, _interval(comparison, variant, quantity))
+                lines.setdefault((variant, *figures), []).append((quantity_words(quantity), where))
+    rows = tuple(
+        (variant, "; ".join(words for words, _ in same), *figures, same[0][1])
+        for (variant, *figures), same in lines.items()
+        if any(text != ABSENT for text in figures)
+    )
+    if not rows:
+        return None
+    return Table(
+        "pooled",
+        "Errors over all cells and all states of the cycle. A bias near the RMS error means that the 2D "
+        "model is off by the same share everywhere; a scatter near it, that it is off differently from place "
+        "to place. The 95 % interval of the bias comes from blocks of the cycle drawn anew (bootstrap): "
+        "it tells how sure the bias is, not how large errors are. "
+        "Quantities whose figures agree share a line.",
+        (
+            Column("variant"),
+            Column("quantity", "prose"),
+            Column("bias", "number"),
+            Column("its 95 %", "number"),
+            Column("scatter", "number"),
+            Column("RMS error", "number"),
+            Column("RMS 2D − 3D", "number"),
+            Column("largest error", "number"),
+            Column("found at"),
+        ),
+        rows,
+        rule_by=0,
+    )
+
+
+def _round_off(row: Row) -> bool:
+    """Whether a largest error is shown as zero, so that its place says nothing."""
+    return row.error is not None and percent(row.error) == percent(0.0)
+
+
+def _figures(by: dict[str, Row], interval: str) -> tuple[str, ...]:
+    """Bias and its interval, scatter, RMS and largest error as text."""
+    texts = [percent(by[name].error if name in by else None) for name in _STATISTICS]
+    return (
+        texts[0],
+        interval,
+        unsigned(texts[1]),
+        unsigned(texts[2]),
+        _difference(by.get(_ABSOLUTE)),
+        texts[3],
+    )
+
+
+def _difference(row: Row | None) -> str:
+    """RMS of 2D − 3D in the unit that differences are shown in."""
+    if row is None or row.error is None:
+        return ABSENT
+    unit, factor = DIFFERENCE_UNITS.get(row.unit, (row.unit, 1.0))
+    return with_unit(rounded(factor * row.error, 3), unit)
+
+
+def _interval(comparison: Comparison, variant: str, quantity: str) -> str:
+    """Confidence limits of a bias as text."""
+    low, high = (comparison.metrics.find(variant, quantity, name) for name in ("bias_low", "bias_high"))
+    if low is None or high is None or low.error is None or high.error is None:
+        return ABSENT
+    return f"{percent(low.error).removesuffix(f'{SPACE}%')} … {percent(high.error)}"

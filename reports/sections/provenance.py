@@ -1,0 +1,124 @@
+"""Last section: what the comparison was made from, and how to make it again."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+
+from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, Table
+from reports.result.load import Comparison
+from reports.sections.cost import cost_table, records_table
+from reports.wording.numbers import ABSENT, counted
+
+_SMALL = 1e-6  # figures that matter by their order of magnitude only
+_KEYS = {
+    "n_x": "cells along the artery",
+    "n_phi": "cells around the artery",
+    "viscosity_Pa_s": "viscosity (Pa s)",
+    "coverage": "share of the cycle covered",
+    "cycle_change": "relative change over the last cycle",
+}
+
+
+def _word(value: object) -> str:
+    if value is None or value == "":
+        return ABSENT
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float) and 0.0 < abs(value) < _SMALL:
+        return f"{value:.1e}"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, dict | list):
+        return json.dumps(value, ensure_ascii=False)
+    return str(value)
+
+
+def _key(name: str) -> str:
+    """Name of a setting in words, with the unit that its last letters tell."""
+    if name in _KEYS:
+        return _KEYS[name]
+    return (f"{name[:-2]} (s)" if name.endswith("_s") else name).replace("_", " ")
+
+
+def _pairs(key: str, caption: str, headings: tuple[str, str], pairs: Mapping[str, object]) -> Table:
+    rows = tuple((_key(name), _word(value)) for name, value in pairs.items())
+    return Table(key, caption, (Column(headings[0]), Column(headings[1], "prose")), rows)
+
+
+def _run(comparison: Comparison) -> Table:
+    p = comparison.provenance
+    return _pairs(
+        "run",
+        "The run that this report draws.",
+        ("what", "value"),
+        {
+            "case": comparison.case,
+            "case file": p.case.path,
+            "created": p.created,
+            "package version": p.package_version,
+            "git commit": p.git_commit,
+            "Python": p.python,
+            **{f"machine: {name}": value for name, value in p.machine.items()},
+        },
+    )
+
+
+def _models(comparison: Comparison, side: str, caption: str) -> Table:
+    """Write facts of one model, a row each, with a column for each variant."""
+    facts = {
+        name: getattr(comparison.provenance.variants[name], side).facts() for name in comparison.variants
+    }
+    keys = dict.fromkeys(key for of_variant in facts.values() for key in of_variant)
+    return Table(
+        side,
+        caption,
+        (Column("setting"), *(Column(name, "prose") for name in comparison.variants)),
+        tuple((_key(key), *(_word(facts[name].get(key)) for name in comparison.variants)) for key in keys),
+    )
+
+
+def _inputs(comparison: Comparison) -> Table:
+    p = comparison.provenance
+    text = comparison.case_yaml.encode()
+    as_kept = hashlib.sha256(text).hexdigest() == p.case.sha256  # else with other line ends or a mark
+    files = [(p.case.path, str(len(text)) if as_kept else ABSENT, p.case.sha256)]
+    files += [(file.path, str(file.bytes), file.sha256) for file in p.inputs]
+    rows = tuple({(path, sha): (path, size, sha) for path, size, sha in files}.values())
+    return Table(
+        "inputs",
+        "Files read, with the checksums that identify them.",
+        (Column("file", "prose"), Column("bytes", "number"), Column("sha256", "code")),
+        rows,
+    )
+
+
+def section(comparison: Comparison) -> Section:
+    """Build the section."""
+    p = comparison.provenance
+    blocks: list[Block] = [
+        Paragraph(
+            "How to repeat it: check out the commit named below, install the package, put the files listed "
+            "under inputs in place and run the command."
+        ),
+        Listing("Command", p.command),
+        _run(comparison),
+        _models(comparison, "rom", "2D model: grid, time step and settings."),
+        _models(comparison, "reference", "3D reference: files, mesh and states."),
+    ]
+    blocks += [table for table in (records_table(comparison), cost_table(comparison)) if table]
+    if p.wall_times_s:
+        blocks.append(
+            _pairs(
+                "wall-times",
+                "Wall-clock times of this run; what comes from the cache takes as long as reading it.",
+                ("step", "seconds"),
+                p.wall_times_s,
+            )
+        )
+    blocks.append(_inputs(comparison))
+    blocks.append(_pairs("versions", "Versions of the libraries.", ("package", "version"), p.versions))
+    if p.notes:
+        blocks.append(Paragraph(f"{counted(len(p.notes), 'note')} of the run, warnings and assumptions:"))
+        blocks.append(Bullets(p.notes))
+    blocks.append(Listing("The case file", comparison.case_yaml))
+    return Section("provenance", "Provenance", tuple(blocks))

@@ -1,0 +1,208 @@
+"""Section 1: whether the declared bands hold, in sentences computed from the metrics."""
+
+from collections import Counter
+
+from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Section, Table, Warnings
+from reports.result.load import Comparison
+from reports.result.metrics import Row, Status
+from reports.sections import pooled, trust
+from reports.wording.numbers import ABSENT, counted, listed, rounded
+from reports.wording.words import limit, measure, place, quantity_words, statistic_words
+
+_ORDER = {"FAIL": 0, "MISSING": 1, "OK": 2}
+
+
+def worst_first(rows: tuple[Row, ...]) -> list[Row]:
+    """Bands that fail by how far, then those that could not be judged, then those that hold by how close."""
+    return sorted(rows, key=lambda r: (_ORDER[r.status], -r.ratio if r.error is not None else 0.0))
+
+
+def headline(comparison: Comparison) -> str:
+    """Say in one line how many bands hold, fail and are missing, variant by variant."""
+    bands = comparison.metrics.bands()
+    if not bands:
+        return "The case declares no band, so nothing is judged: the figures below are measured, not graded."
+    counts = [(name, Counter(r.status for r in bands if r.variant == name)) for name in comparison.variants]
+    parts = [f"{name}: {_tally(count)}" for name, count in counts if count]
+    total = Counter(r.status for r in bands)
+    opening = (
+        f"All {len(bands)} bands hold"
+        if total["OK"] == len(bands) > 1
+        else f"{total['OK']} of {counted(len(bands), 'band')} {'holds' if total['OK'] == 1 else 'hold'}"
+    )
+    return f"{opening} ({'; '.join(parts)})."
+
+
+def _tally(count: Counter[Status]) -> str:
+    words = [f"{count['OK']} of {count.total()} hold"]
+    words += [f"{count['FAIL']} fail"] if count["FAIL"] else []
+    words += [f"{count['MISSING']} missing"] if count["MISSING"] else []
+    return ", ".join(words)
+
+
+def worst(comparison: Comparison) -> str:
+    """Name the band furthest beyond its limit, or nearest to it, with its numbers."""
+    judged = [r for r in comparison.metrics.bands() if r.error is not None and r.band is not None]
+    if not judged:
+        return ""
+    row = max(judged, key=lambda r: r.ratio)
+    where = place(row)
+    opening = "Furthest beyond its limit" if row.status == "FAIL" else "Nearest to its limit"
+    return (
+        f"{opening}: {statistic_words(row.statistic)} of {quantity_words(row.quantity)} in variant "
+        f"{row.variant}, {_error_text(row)} against a limit of {limit(row)}"
+        f"{f' (at {where})' if where else ''}."
+    )
+
+
+def by_variant(comparison: Comparison) -> tuple[str, ...]:
+    """Say for each variant whether its bands hold, and by how much the furthest is missed or held."""
+    said = []
+    for name in comparison.variants:
+        bands = [row for row in comparison.metrics.bands() if row.variant == name]
+        judged = [row for row in bands if row.error is not None]
+        failed = [row for row in worst_first(tuple(judged)) if row.status == "FAIL"]
+        missing = len(bands) - len(judged)
+        if not bands:
+            said.append(f"{name}: no band was declared, so nothing is judged.")
+            continue
+        if failed:
+            text = "the 2D model is not within what was declared: " + "; ".join(map(_against_limit, failed))
+        elif judged:
+            nearest = max(judged, key=lambda row: row.ratio)
+            text = f"the 2D model is within every judged limit; nearest is {_against_limit(nearest)}"
+        else:
+            text = "nothing can be said"
+        unjudged = f"; {counted(missing, 'band')} could not be judged" if missing else ""
+        said.append(f"{name}: {text}{unjudged}.")
+    return tuple(said)
+
+
+def _against_limit(row: Row) -> str:
+    return (
+        f"{statistic_words(row.statistic)} of {quantity_words(row.quantity)} {_error_text(row)}, "
+        f"limit {limit(row)}"
+    )
+
+
+def unknowns(comparison: Comparison) -> tuple[str, ...]:
+    """Say what this comparison cannot tell: bands without a figure, mesh convergence, too few cycles."""
+    missing = [r for r in comparison.metrics.bands() if r.status == "MISSING"]
+    said = [
+        f"{row.variant}: {statistic_words(row.statistic)} of {quantity_words(row.quantity)} was declared "
+        f"({limit(row)}) but could not be computed; it counts as not held."
+        for row in missing
+    ]
+    if comparison.sparse:
+        said.append(
+            "The reference states values at some cells and instants only; elsewhere, nothing is compared."
+        )
+    said.append(
+        "Each 3D reference is one run on one mesh: how far its values are from those of a finer mesh is not "
+        "measured here, so a difference smaller than that error says nothing about the 2D model."
+    )
+    variants = comparison.provenance.variants
+    uncovered = [name for name in comparison.variants if variants[name].reference.coverage is None]
+    if uncovered:
+        said.append(f"How much of the cycle the 3D states of {listed(uncovered)} cover was not recorded.")
+    said.append("Of 3D one cycle is compared; whether 3D had become periodic by then is not measured here.")
+    unrated = [name for name in comparison.variants if variants[name].rom.cycle_change is None]
+    if unrated:
+        said.append(f"Whether the 2D model of {listed(unrated)} had become periodic was not recorded.")
+    single = [name for name in comparison.variants if variants[name].rom.cycles == 1]
+    if single:
+        said.append(
+            f"The 2D model ran a single cycle for {listed(single)}: whether it had become periodic is not "
+            "known."
+        )
+    return tuple(said)
+
+
+def _error_text(row: Row) -> str:
+    """Write the error with as many decimals as it takes to tell it from its limit."""
+    for decimals in range(2, 7):
+        text = measure(row, row.error, decimals)
+        if text.lstrip("+−") != measure(row, row.band, decimals).lstrip("+"):
+            break
+    return text
+
+
+def reason(comparison: Comparison, row: Row) -> str:
+    """Return the reason declared with the band that a row judges; "" if none is known."""
+    for band in comparison.provenance.bands:
+        same = (band.quantity, band.statistic, band.limit) == (row.quantity, row.statistic, row.band)
+        if same and row.variant in (comparison.variants if band.variants is None else band.variants):
+            return band.reason
+    return ""
+
+
+def _band_table(comparison: Comparison) -> Table:
+    rows = tuple(
+        (
+            row.variant,
+            row.status,
+            quantity_words(row.quantity),
+            statistic_words(row.statistic) + (f" ({place(row)})" if place(row) else ""),
+            _error_text(row),
+            limit(row),
+            rounded(row.ratio, 2) if row.error is not None else ABSENT,
+            reason(comparison, row),
+        )
+        for row in worst_first(comparison.metrics.bands())
+    )
+    return Table(
+        "bands",
+        "Every declared band, worst first: failed by how far, then missing, then held by how close. "
+        "Error is (2D − 3D) over 3D; of limit is the error's size over the limit, above 1 is a failure.",
+        (
+            Column("variant"),
+            Column("verdict", "status"),
+            Column("quantity", "prose"),
+            Column("statistic", "prose"),
+            Column("error", "number"),
+            Column("limit", "number"),
+            Column("of limit", "number"),
+            Column("reason for the limit", "prose"),
+        ),
+        rows,
+        rule_by=1,
+    )
+
+
+def _other_references(comparison: Comparison) -> str:
+    """Say of which variants the reference is no 3D simulation; "" where all are."""
+    records = comparison.provenance.variants
+    other = [name for name in comparison.variants if records[name].reference.simulation == "2D"]
+    return (
+        f"In {listed(other)} the reference is another 2D model: there, what is headed 3D is that one."
+        if other
+        else ""
+    )
+
+
+def section(comparison: Comparison) -> Section:
+    """Build the section."""
+    blocks: list[Block] = [Paragraph(headline(comparison), lead=True)]
+    warnings = (*trust.doubts(comparison), *comparison.provenance.warnings)
+    if warnings:
+        blocks.append(Warnings(warnings))
+    told = _other_references(comparison)
+    if told:
+        blocks.append(Paragraph(told))
+    sentence = worst(comparison)
+    if sentence:
+        blocks.append(Paragraph(sentence))
+    if comparison.metrics.bands():
+        blocks += [Bullets(by_variant(comparison)), _band_table(comparison)]
+    blocks += [Paragraph("What this comparison does not tell:"), Bullets(unknowns(comparison))]
+    blocks += [table for table in (trust.table(comparison), pooled.table(comparison)) if table]
+    blocks.append(
+        Interactive(
+            "metrics-all",
+            "metrics",
+            "Every figure of this comparison",
+            "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
+            "click on a heading sorts.",
+        )
+    )
+    return Section("verdict", "Verdict", tuple(blocks))

@@ -1,0 +1,1 @@
+"""How quantities, numbers, places and tables are written."""

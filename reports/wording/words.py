@@ -1,0 +1,117 @@
+"""How quantities, statistics and cells are named in a report."""
+
+import math
+from collections.abc import Sequence
+
+from cases.fields import FIELDS, Field
+from reports.result.load import Comparison
+from reports.result.metrics import DIFFERENCE_STATISTICS, Row
+from reports.wording.numbers import ABSENT, SPACE, fixed, listed, percent, unsigned, with_unit
+
+STATISTICS = {
+    "value": "value",
+    "rms_error": "RMS error",
+    "max_error": "largest error",
+    "systolic_error": "error at systole",
+    "diastolic_error": "error at end diastole",
+    "rms_difference": "RMS difference",
+    "max_difference": "largest difference",
+    "bias": "bias",
+    "scatter": "scatter",
+    "cycle": "error over the cycle",
+    "change": "change by calcification",
+    "ratio": "ratio to the baseline",
+}
+_RARE = {
+    "curved_rms_error": "RMS error against 3D with the section's edge taken round",
+    "worst_cell": "RMS error of the worst cell",
+}
+UNSIGNED_STATISTICS = ("rms_error", "scatter")
+
+
+def field_of(quantity: str, unit: str) -> Field:
+    """Return the quantity's field; a quantity the table does not know is shown in its SI unit."""
+    return FIELDS.get(quantity) or Field(
+        quantity, quantity, quantity.replace("_", " "), unit, unit, 1.0, dims=()
+    )
+
+
+def quantity_words(quantity: str) -> str:
+    """E.g. "flow rate through the section"."""
+    return field_of(quantity, "1").label
+
+
+def statistic_words(statistic: str) -> str:
+    """E.g. "RMS error"."""
+    return STATISTICS.get(statistic) or _RARE.get(statistic, statistic.replace("_", " "))
+
+
+def measure(row: Row, value: float | None, decimals: int = 2) -> str:
+    """Write an error or a limit in the unit of its statistic: percent, or the quantity's display unit."""
+    if row.statistic not in DIFFERENCE_STATISTICS:
+        text = percent(value, decimals)
+        return unsigned(text) if row.statistic in UNSIGNED_STATISTICS else text
+    field = field_of(row.quantity, row.unit)
+    return with_unit(
+        fixed(None if value is None else value * field.display_factor, decimals), field.display_unit
+    )
+
+
+def limit(row: Row) -> str:
+    """Write a band's limit as it was declared: without trailing zeros."""
+    if row.band is None:
+        return ABSENT
+    if row.statistic not in DIFFERENCE_STATISTICS:
+        return f"{100 * row.band:.6g}{SPACE}%"
+    field = field_of(row.quantity, row.unit)
+    return with_unit(f"{row.band * field.display_factor:.6g}", field.display_unit)
+
+
+def spot(i: int | None, j: int | None, t_s: float | None) -> str:
+    """Say where and when, e.g. "i = 61, j = 25, t = 0.090 s", with no line break inside an equation."""
+    parts = [f"{name}{SPACE}={SPACE}{number}" for name, number in (("i", i), ("j", j)) if number is not None]
+    if t_s is not None:
+        parts.append(f"t{SPACE}={SPACE}{t_s:.3f}{SPACE}s")
+    return ", ".join(parts)
+
+
+def place(row: Row) -> str:
+    """Say where and when a figure was taken."""
+    return spot(row.i, row.j, row.t_s)
+
+
+def column_heading(comparison: Comparison, i: int) -> str:
+    """E.g. "i = 39, x = 4.81 mm"."""
+    x = comparison.x[comparison.i.index(i)]
+    return f"i = {i}, x = {1e3 * x:.4g} mm"
+
+
+def baseline_words(comparison: Comparison) -> str:
+    """Name the variant that changes are counted from, or each of several with the variants it is for."""
+    names = list(dict.fromkeys(comparison.baselines[name] for name in comparison.changed))
+    if len(names) == 1:
+        return names[0]
+    return "; ".join(
+        f"{base} (for {listed(name for name in comparison.changed if comparison.baselines[name] == base)})"
+        for base in names
+    )
+
+
+def row_heading(comparison: Comparison, j: int) -> str:
+    """E.g. "j = 25, φ = 184°"."""
+    phi = comparison.phi[comparison.j.index(j)]
+    return f"j = {j}, φ = {math.degrees(phi):.0f}°"
+
+
+def instant(name: str, t_s: float) -> str:
+    """E.g. "systole (0.090 s)"; a name that is itself a time stays as it is."""
+    value, _, unit = name.partition(" ")
+    if unit == "s" and value.replace(".", "", 1).isdecimal():
+        return f"{value}{SPACE}s"
+    return f"{name} ({t_s:.3f}{SPACE}s)"
+
+
+def top_to_bottom(times: Sequence[tuple[str, float]]) -> str:
+    """Say what instants the rows of a figure are."""
+    words = listed(instant(*named) for named in times)
+    return words if len(times) == 1 else f"from top to bottom {words}"
