@@ -5,8 +5,8 @@ from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.errors import ColumnFileError, QuantityError, UnreadableFileError
 from cases.values.input_files import read_file
 from cases.values.ranges import CYCLE_TIMES, FLOW_RATES, PRESSURES, SIZES, VELOCITIES, Range
@@ -79,11 +79,11 @@ class Samples:
         Line of each row, counted from 1.
     """
 
-    first: NDArray[np.float64]
-    second: NDArray[np.float64]
+    first: Floats
+    second: Floats
     lines: tuple[int, ...]
 
-    def require_increasing(self, values: NDArray[np.float64], word: str, plural: str) -> None:
+    def require_increasing(self, values: Floats, word: str, plural: str) -> None:
         """Refuse values that do not increase strictly from row to row.
 
         Raises

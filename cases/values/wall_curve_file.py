@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.errors import ColumnFileError
 from cases.values.column_file import PRESSURE, RADIUS, Samples, read_samples
 
@@ -26,8 +26,8 @@ class WallCurve:
         The file it was read from.
     """
 
-    radii: NDArray[np.float64]
-    pressures: NDArray[np.float64]
+    radii: Floats
+    pressures: Floats
     path: Path | None = None
 
     def __eq__(self, other: object) -> bool:

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.errors import ColumnFileError
 from cases.values.column_file import TIME, VELOCITY, Column, Samples, read_samples
 from cases.values.ranges import PERIODS
@@ -30,8 +30,8 @@ class Waveform:
         The file it was read from.
     """
 
-    times: NDArray[np.float64]
-    values: NDArray[np.float64]
+    times: Floats
+    values: Floats
     period: float
     path: Path | None = None
 

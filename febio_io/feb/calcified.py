@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Flags, Floats
 from febio_io.feb.model import FebioModelError, MeshSize, Patch, Vessel
 
 ROUND_OFF = 1e-9  # of a length or a turn
@@ -23,7 +23,7 @@ class Calcified:
         What the patch has become, where the mesh has no element edges at its own.
     """
 
-    elements: NDArray[np.bool_]
+    elements: Flags
     warning: str | None
 
 
@@ -64,7 +64,7 @@ def calcified_elements(vessel: Vessel, size: MeshSize, patch: Patch) -> Calcifie
     return Calcified(chosen, _warning(vessel, patch, edges, along, turn, around))
 
 
-def _within(values: NDArray[np.float64], first: float, last: float, slack: float) -> NDArray[np.bool_]:
+def _within(values: Floats, first: float, last: float, slack: float) -> Flags:
     return (values >= first - slack) & (values <= last + slack)
 
 
@@ -75,10 +75,10 @@ def _width(phi: tuple[float, float]) -> float:
 def _warning(
     vessel: Vessel,
     patch: Patch,
-    edges: NDArray[np.float64],
-    along: NDArray[np.bool_],
-    turn: NDArray[np.float64],
-    around: NDArray[np.bool_],
+    edges: Floats,
+    along: Flags,
+    turn: Floats,
+    around: Flags,
 ) -> str | None:
     """Tell the extent between the outermost element edges, where it is not the patch's own."""
     said = []

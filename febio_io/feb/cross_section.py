@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from febio_io.feb.model import Floats, MeshSize, Vessel
+from cases.arrays import Floats, Integers
+from febio_io.feb.model import MeshSize, Vessel
 
-Integers = NDArray[np.int64]
 SQUARE = 0.5  # half the side of an O-grid's square over the radius
 
 

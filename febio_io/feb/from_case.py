@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from cases.arrays import Floats
 from cases.sections.case import (
     Case,
     FourierSeries,
@@ -26,7 +27,6 @@ from febio_io.feb.model import (
     ArteryModel,
     Blood,
     FebioModelError,
-    Floats,
     Frame,
     MeshSize,
     Outlet,

@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from febio_io.feb.model import Curve, Floats
+from cases.arrays import Floats
+from febio_io.feb.model import Curve
 
 RAMP_POINTS = 51
 SPACING = 2e-3  # s, in a heartbeat: the waveform's curvature is followed to 1e-3 of its height

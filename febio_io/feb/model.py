@@ -4,11 +4,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from febio_io.errors import FebioError
 
-Floats = NDArray[np.float64]
 WallLaw = Literal["isotropic elastic", "neo-Hookean"]
 Core = Literal["wedges", "o_grid"]
 LARGEST_MESH = 50_000_000  # elements; FEBio numbers nodes and elements with 32 bits

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from febio_io.feb.cross_section import CrossSection, Integers, cross_section
-from febio_io.feb.model import Floats, Frame, MeshSize, Vessel
+from cases.arrays import Floats, Integers
+from febio_io.feb.cross_section import CrossSection, cross_section
+from febio_io.feb.model import Frame, MeshSize, Vessel
 
 FACET_KINDS = {3: "tri3", 4: "quad4"}
 ELEMENT_KINDS = {6: "penta6", 8: "hex8"}

@@ -8,11 +8,11 @@ from xml.etree.ElementTree import Element, tostring
 
 import numpy as np
 
+from cases.arrays import Floats, Integers
 from febio_io.errors import FebioFileError
 from febio_io.feb import sections
 from febio_io.feb.calcified import calcified_elements
-from febio_io.feb.cross_section import Integers
-from febio_io.feb.model import ArteryModel, Floats
+from febio_io.feb.model import ArteryModel
 from febio_io.feb.tube_mesh import ELEMENT_KINDS, Facets, TubeMesh, tube_mesh
 
 ROWS_AT_ONCE = 20_000

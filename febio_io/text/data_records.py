@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from febio_io.errors import FebioFileError, FebioFormatError
 from febio_io.files import read_text
 from febio_io.text.record_blocks import Block, numbered_lines, read_blocks
@@ -54,11 +54,11 @@ class DataRecord:
     path: Path
     name: str
     columns: tuple[str, ...]
-    times: NDArray[np.float64]
-    steps: NDArray[np.int64]
-    blocks: NDArray[np.int64]
-    items: NDArray[np.int64]
-    values: NDArray[np.float64]
+    times: Floats
+    steps: Integers
+    blocks: Integers
+    items: Integers
+    values: Floats
     warnings: tuple[str, ...] = ()
 
     @property

@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from cases.arrays import Singles
 from febio_io.text.data_records import DataRecord
 from febio_io.text.log import Log
 from febio_io.views.arrays import ITEMS, SECTIONS, to_xarray
 from febio_io.views.file_names import safe_name
 from febio_io.xplt import Mesh, Plot, Variable
-from febio_io.xplt.fields import Values
 from febio_io.xplt.mesh import PADDING, Domain, Region
 from febio_io.xplt.whole import Quantity, quantities, regions_in, values_in
 
@@ -76,8 +76,8 @@ def _region_keys(mesh: Mesh, region: Region, kind: Variable) -> dict[str, Any]:
 
 
 def _without_padding(
-    region: Region, kind: Variable, rows: Values, keys: dict[str, Any]
-) -> tuple[Values, dict[str, Any]]:
+    region: Region, kind: Variable, rows: Singles, keys: dict[str, Any]
+) -> tuple[Singles, dict[str, Any]]:
     table = getattr(region, "faces", getattr(region, "lines", None))
     if kind.storage != "mult" or table is None:
         return rows, keys

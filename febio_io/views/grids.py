@@ -6,11 +6,11 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers, Singles
 from febio_io.errors import FebioFormatError, FebioKeyError
 from febio_io.xplt.lookup import find_region, find_state
-from febio_io.xplt.mesh import PADDING, Domain, Edge, Integers, Mesh, Surface
+from febio_io.xplt.mesh import PADDING, Domain, Edge, Mesh, Surface
 from febio_io.xplt.whole import Quantity, quantities, values_in, whole_values
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def to_pyvista(
     return grid
 
 
-def _positions(plot: Plot, mesh: Mesh, number: int, deformed: bool) -> NDArray[np.float64]:
+def _positions(plot: Plot, mesh: Mesh, number: int, deformed: bool) -> Floats:
     if not deformed:
         return mesh.coordinates
     wanted = ("node", DISPLACEMENT, "vec3f")
@@ -103,11 +103,11 @@ def _positions(plot: Plot, mesh: Mesh, number: int, deformed: bool) -> NDArray[n
     values = plot.fields(found[0], number) if found else {}
     if not values:
         raise FebioKeyError(f"{plot.path}: state {number} has no displacement to show it deformed by")
-    moved: NDArray[np.float64] = mesh.coordinates + values[0]
+    moved: Floats = mesh.coordinates + values[0]
     return moved
 
 
-def _whole_grid(mesh: Mesh, positions: NDArray[np.float64]) -> pv.UnstructuredGrid:
+def _whole_grid(mesh: Mesh, positions: Floats) -> pv.UnstructuredGrid:
     import pyvista as pv
 
     cells, types = [np.empty(0, np.int64)], [np.empty(0, np.uint8)]
@@ -170,9 +170,7 @@ def _find(plot: Plot, mesh: Mesh, surface: str | int | None, edge: str | int | N
     return next(region for region in regions if region.region == number)
 
 
-def _region_grid(
-    plot: Plot, mesh: Mesh, region: Surface | Edge, positions: NDArray[np.float64]
-) -> pv.UnstructuredGrid:
+def _region_grid(plot: Plot, mesh: Mesh, region: Surface | Edge, positions: Floats) -> pv.UnstructuredGrid:
     import pyvista as pv
 
     table, known = (region.faces, FACES) if isinstance(region, Surface) else (region.lines, LINES)
@@ -228,7 +226,7 @@ def _add_region_values(
             _set(grid.cell_data, quantity.label, whole if kind.storage == "region" else values, kind)
 
 
-def _set(attributes: Any, label: str, values: NDArray[np.float32], kind: Variable) -> None:
+def _set(attributes: Any, label: str, values: Singles, kind: Variable) -> None:
     """Add an array, with names of the components where each cell or point has one value."""
     if not values.size:
         return  # pyvista takes no empty arrays

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from febio_io.errors import FebioFormatError
 from febio_io.xplt.container import Chunk, Source, children_by_tag, required
 from febio_io.xplt.index import Index, Section, read_index
@@ -37,8 +37,8 @@ class Contents:
     meshes: tuple[Section, ...]
     states: tuple[Section, ...]
     mesh_numbers: tuple[int, ...]
-    times: NDArray[np.float64]
-    status: NDArray[np.int64]
+    times: Floats
+    status: Integers
     warnings: tuple[str, ...]
     inflated: dict[int, bytes]
 

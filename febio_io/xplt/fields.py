@@ -4,14 +4,12 @@ from dataclasses import dataclass
 from math import prod
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Flags, Singles
 from febio_io.xplt.container import Chunk, Source, children, children_by_tag, required
 from febio_io.xplt.dictionary import SectionName, Variable
 from febio_io.xplt.mesh import Mesh, Region
 from febio_io.xplt.tags import Tag
-
-Values = NDArray[np.float32]
 
 DATA_SECTIONS: dict[int, SectionName] = {
     Tag.GLOBAL_DATA: "global",
@@ -173,7 +171,7 @@ def _problem(
 
 def view_block(
     state: StateData, variable: Variable, mesh: Mesh, region: Region | None, block: Chunk
-) -> Values:
+) -> Singles:
     """View the values of a block that :func:`find_blocks` found.
 
     Parameters
@@ -201,7 +199,7 @@ def view_block(
     return values
 
 
-def read_active_elements(state: StateData, mesh: Mesh) -> NDArray[np.bool_]:
+def read_active_elements(state: StateData, mesh: Mesh) -> Flags:
     """Read which elements take part in a state.
 
     Returns

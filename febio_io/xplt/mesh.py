@@ -5,12 +5,11 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from febio_io.xplt.elements import ElementType
 from febio_io.xplt.objects import ModelObject
 
-Integers = NDArray[np.int64]
 PADDING = -1
 
 
@@ -221,7 +220,7 @@ class Mesh:
     """
 
     node_ids: Integers
-    coordinates: NDArray[np.float64]
+    coordinates: Floats
     domains: tuple[Domain, ...] = ()
     surfaces: tuple[Surface, ...] = ()
     edges: tuple[Edge, ...] = ()

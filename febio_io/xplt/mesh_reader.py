@@ -5,22 +5,11 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from febio_io.xplt.container import Chunk, Source, children, children_by_tag, required
 from febio_io.xplt.elements import ELEMENT_TYPES, ElementType
-from febio_io.xplt.mesh import (
-    PADDING,
-    Domain,
-    Edge,
-    ElementSet,
-    Integers,
-    Mesh,
-    NodeSet,
-    Part,
-    Region,
-    Surface,
-)
+from febio_io.xplt.mesh import PADDING, Domain, Edge, ElementSet, Mesh, NodeSet, Part, Region, Surface
 from febio_io.xplt.objects import read_objects
 from febio_io.xplt.tags import Tag
 
@@ -135,7 +124,7 @@ def _distinct(source: Source, mesh: Chunk, regions: Iterator[R]) -> tuple[R, ...
     return found
 
 
-def _read_nodes(source: Source, section: Chunk, version: int) -> tuple[Integers, NDArray[np.float64]]:
+def _read_nodes(source: Source, section: Chunk, version: int) -> tuple[Integers, Floats]:
     parts = children_by_tag(source, section)
     header = required(source, section, parts, Tag.NODE_HEADER)
     sizes = children_by_tag(source, header)

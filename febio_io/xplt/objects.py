@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Singles
 from febio_io.xplt.container import Chunk, Source, children, required
 from febio_io.xplt.dictionary import Variable, read_variable
 from febio_io.xplt.tags import Tag
@@ -43,9 +43,9 @@ class ModelObject:
     object_id: int
     name: str
     tag: int
-    position: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    ends: NDArray[np.float64] | None
+    position: Floats
+    rotation: Floats
+    ends: Floats | None
     variables: tuple[Variable, ...]
 
 
@@ -64,10 +64,10 @@ class ObjectState:
     """
 
     model_object: ModelObject
-    position: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    ends: NDArray[np.float64] | None
-    values: dict[str, NDArray[np.float32]]
+    position: Floats
+    rotation: Floats
+    ends: Floats | None
+    values: dict[str, Singles]
 
 
 def read_objects(source: Source, section: Chunk) -> tuple[ModelObject, ...]:
@@ -158,9 +158,7 @@ def _split(source: Source, chunk: Chunk) -> tuple[dict[int, Chunk], list[Chunk]]
     return parts, data
 
 
-def _place(
-    source: Source, chunk: Chunk, parts: dict[int, Chunk]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
+def _place(source: Source, chunk: Chunk, parts: dict[int, Chunk]) -> tuple[Floats, Floats, Floats | None]:
     ends = None
     if KINDS[chunk.tag] == "line":
         ends = _numbers(source, required(source, chunk, parts, Tag.LINE_COORDS), 6).reshape(2, 3)
@@ -169,7 +167,7 @@ def _place(
     return position, rotation, ends
 
 
-def _numbers(source: Source, chunk: Chunk, count: int) -> NDArray[np.float64]:
+def _numbers(source: Source, chunk: Chunk, count: int) -> Floats:
     if chunk.size != 4 * count:
         raise source.error(f"{count} numbers expected, {chunk.size} bytes found", chunk.start, chunk.tag)
     return source.array(chunk, "f4").astype(np.float64)

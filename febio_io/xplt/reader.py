@@ -8,15 +8,14 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Flags, Singles
 from febio_io.errors import FebioFileError, FebioKeyError
 from febio_io.xplt.container import Chunk, Source
 from febio_io.xplt.contents import read_contents
 from febio_io.xplt.dictionary import SectionName, Variable
 from febio_io.xplt.fields import (
     StateData,
-    Values,
     find_blocks,
     locate_variables,
     read_active_elements,
@@ -165,7 +164,7 @@ class Plot:
         *,
         section: SectionName | None = None,
         copy: bool = True,
-    ) -> Values:
+    ) -> Singles:
         """Read the values of one variable in one state and region.
 
         Parameters
@@ -210,7 +209,7 @@ class Plot:
         region: str | int | None = None,
         *,
         section: SectionName | None = None,
-    ) -> Values:
+    ) -> Singles:
         """Read the values of one variable in one region over several states.
 
         Parameters
@@ -248,7 +247,7 @@ class Plot:
             series[place] = values
         return series
 
-    def active_elements(self, state: int) -> NDArray[np.bool_]:
+    def active_elements(self, state: int) -> Flags:
         """Tell which elements take part in a state.
 
         Returns
@@ -302,7 +301,7 @@ class Plot:
 
     def _view(
         self, name: str | Variable, state: int, region: str | int | None, section: SectionName | None
-    ) -> Values:
+    ) -> Singles:
         data, mesh, blocks = self._blocks(name, state, section)
         label = f"variable {blocks[0][0].name!r} in state {data.number}"
         regions = regions_of(blocks[0][0], mesh)
@@ -318,7 +317,7 @@ class Plot:
         variable, block = owners[0]
         return view_block(data, variable, mesh, regions[number], block)
 
-    def fields(self, variable: Variable, state: int) -> dict[int, Values]:
+    def fields(self, variable: Variable, state: int) -> dict[int, Singles]:
         """View the values of one variable in one state, in all regions that have any.
 
         Parameters

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cases.arrays import Singles
 from febio_io.errors import FebioFormatError
 from febio_io.xplt.dictionary import SectionName, Variable
-from febio_io.xplt.fields import WHOLE, Values
+from febio_io.xplt.fields import WHOLE
 from febio_io.xplt.mesh import Mesh, Region
 from febio_io.xplt.reader import Plot
 
@@ -81,7 +82,7 @@ def regions_in(mesh: Mesh, section: SectionName) -> tuple[Region, ...]:
     return tables.get(section, ())
 
 
-def values_in(plot: Plot, quantity: Quantity, state: int) -> dict[int, Values]:
+def values_in(plot: Plot, quantity: Quantity, state: int) -> dict[int, Singles]:
     """View a quantity's values in all regions.
 
     Raises
@@ -89,7 +90,7 @@ def values_in(plot: Plot, quantity: Quantity, state: int) -> dict[int, Values]:
     FebioFormatError
         If two of its variables have different values in one region.
     """
-    found: dict[int, Values] = {}
+    found: dict[int, Singles] = {}
     for variable in quantity.variables:
         for region, values in plot.fields(variable, state).items():
             if region in found and not np.array_equal(found[region], values, equal_nan=True):
@@ -123,7 +124,7 @@ def whole_shape(mesh: Mesh, kind: Variable) -> Shape:
     return (rows, *components)
 
 
-def fill_whole(plot: Plot, quantity: Quantity, state: int, out: Values) -> None:
+def fill_whole(plot: Plot, quantity: Quantity, state: int, out: Singles) -> None:
     """Put a quantity's values in a state into an array of :func:`whole_shape`; leave the rest as it is.
 
     Raises
@@ -149,7 +150,7 @@ def fill_whole(plot: Plot, quantity: Quantity, state: int, out: Values) -> None:
         start = stop
 
 
-def whole_values(plot: Plot, quantity: Quantity, state: int) -> Values:
+def whole_values(plot: Plot, quantity: Quantity, state: int) -> Singles:
     """Give a quantity's values in a state, NaN where it has none.
 
     Returns

@@ -17,8 +17,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
 
+from cases.arrays import Floats
 from reports.figures.drawing import STYLE, WIDTH, legend_above, svg_text
-from reports.figures.panels import LEFT, Array, Curves, Layout, PanelRow
+from reports.figures.panels import LEFT, Curves, Layout, PanelRow
 
 REFERENCE_COLOUR = "#1a1a1a"
 ROM_COLOUR = "#0072b2"
@@ -34,7 +35,7 @@ _DASHES = (0, (4, 1))
 
 
 def small_multiples(
-    abscissa: Array,
+    abscissa: Floats,
     abscissa_label: str,
     columns: Sequence[str],
     rows: Sequence[PanelRow],
@@ -135,7 +136,7 @@ def _curves(
     axis: Axes,
     layout: Layout,
     row: PanelRow,
-    abscissa: Array,
+    abscissa: Floats,
     marks: Sequence[float],
     from_zero: bool,
 ) -> None:
@@ -177,14 +178,14 @@ def _curves(
     _row_label(axis, row.label)
 
 
-def _joined(layout: Layout, abscissa: Array, ordinates: Sequence[Array]) -> tuple[Array, Array]:
+def _joined(layout: Layout, abscissa: Floats, ordinates: Sequence[Floats]) -> tuple[Floats, Floats]:
     """Curves of all panels as one, with gaps between them: a line each would take long to draw."""
     gap = np.full(1, np.nan)
     x = [part for column in range(layout.count) for part in (layout.place(column, abscissa), gap)]
     return np.concatenate(x), np.concatenate([part for values in ordinates for part in (values, gap)])
 
 
-def _points(axis: Axes, layout: Layout, panels: Sequence[Curves], abscissa: Array) -> None:
+def _points(axis: Axes, layout: Layout, panels: Sequence[Curves], abscissa: Floats) -> None:
     """Draw the reference, some points of a dense curve and all of one that states few."""
     dense = all(np.isfinite(panel.reference).all() for panel in panels)
     every = max(1, -(-abscissa.size // _MOST_MARKERS)) if dense else 1
@@ -210,7 +211,7 @@ def _note(axis: Axes, layout: Layout, column: int, note: str, on_the_right: bool
     )
 
 
-def _differences(axis: Axes, layout: Layout, row: PanelRow, abscissa: Array, marks: Sequence[float]) -> None:
+def _differences(axis: Axes, layout: Layout, row: PanelRow, abscissa: Floats, marks: Sequence[float]) -> None:
     differences = [row.difference_factor * (panel.rom - panel.reference) for panel in row.panels]
     _ordinates(axis, layout, _limits([*differences, np.zeros(1)], from_zero=False), 3)
     axis.add_collection(
@@ -293,7 +294,7 @@ def _row_label(axis: Axes, label: str) -> None:
     )
 
 
-def _limits(arrays: Sequence[Array], from_zero: bool) -> tuple[float, float]:
+def _limits(arrays: Sequence[Floats], from_zero: bool) -> tuple[float, float]:
     """Range of all finite values with a margin; never empty."""
     values = np.concatenate([np.ravel(a) for a in arrays])
     values = values[np.isfinite(values)]

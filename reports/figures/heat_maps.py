@@ -16,11 +16,9 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
+from cases.arrays import Flags, Floats
 from reports.figures.drawing import STYLE, WIDTH, svg_text
-
-Array = NDArray[np.float64]
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.62, 0.62, 0.22, 0.42
 _GAP, _ROW_GAP = 0.10, 0.14
@@ -45,7 +43,7 @@ class Maps:
         Ends of the scale; by default those of the panels.
     """
 
-    panels: tuple[Array, ...]
+    panels: tuple[Floats, ...]
     label: str
     difference: bool = False
     limits: tuple[float, float] | None = None
@@ -60,7 +58,7 @@ class MapRow:
 
 
 def heat_maps(
-    x: Array, phi: Array, columns: Sequence[str], rows: Sequence[MapRow], calcified: NDArray[np.bool_]
+    x: Floats, phi: Floats, columns: Sequence[str], rows: Sequence[MapRow], calcified: Flags
 ) -> str:
     """Draw rows of maps with shared axes.
 
@@ -100,8 +98,8 @@ def _row(
     figure: Figure,
     row: MapRow,
     place: tuple[float, float],
-    edges: tuple[Array, Array],
-    outline: Array,
+    edges: tuple[Floats, Floats],
+    outline: Floats,
     columns: Sequence[str],
 ) -> Axes:
     """Draw one row at (bottom, height), shares of the figure's; return the Axes of its panels."""
@@ -147,8 +145,8 @@ def _panel(
     axis: Axes,
     left: float,
     width: float,
-    edges: tuple[Array, Array],
-    values: Array,
+    edges: tuple[Floats, Floats],
+    values: Floats,
     norm: Normalize,
     colours: Colormap,
 ) -> None:
@@ -210,14 +208,14 @@ def _scale(group: Maps) -> tuple[Normalize, Colormap]:
     return Normalize(float(low), float(high)), colours
 
 
-def _outline(axis: Axes, inches: Array, phi: Array) -> None:
+def _outline(axis: Axes, inches: Floats, phi: Floats) -> None:
     """Outline the calcified cells in black and white, so that the line shows on every colour."""
     x, y = (np.pad(ends, ((0, 0), (0, 1)), constant_values=np.nan).ravel() for ends in (inches, phi))
     for colour, width in (("#ffffff", 1.6), ("#000000", 0.7)):
         axis.plot(x, y, color=colour, linewidth=width, solid_capstyle="projecting", clip_on=False)
 
 
-def cell_borders(x: Array, phi: Array, inside: NDArray[np.bool_]) -> Array:
+def cell_borders(x: Floats, phi: Floats, inside: Flags) -> Floats:
     """Borders between cells that are inside and cells that are not, as straight segments.
 
     Parameters
@@ -243,7 +241,7 @@ def cell_borders(x: Array, phi: Array, inside: NDArray[np.bool_]) -> Array:
     )
 
 
-def edges_of(centres: Array) -> Array:
+def edges_of(centres: Floats) -> Floats:
     """Edges of cells with these centres."""
     if centres.size == 1:
         return np.array([centres[0] - 0.5, centres[0] + 0.5])

@@ -4,23 +4,21 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from reports.wording.tabular import comma_separated
-
-Array = NDArray[np.float64]
 
 CELL_COLUMNS = ("t_s", "i", "j", "x_m", "phi_rad")
 DIGITS = 6  # thousands of cells: more would double the report
 WITHOUT_INSTANT = "The case names no instant to show maps at."
 
 
-def field(data: xr.Dataset, name: str, factor: float = 1.0) -> Array:
+def field(data: xr.Dataset, name: str, factor: float = 1.0) -> Floats:
     """Values of a variable times `factor`."""
     return factor * data[name].values.astype(float)
 
 
-def centres(data: xr.Dataset) -> tuple[Array, Array]:
+def centres(data: xr.Dataset) -> tuple[Floats, Floats]:
     """Centres of the cells: x in mm, φ in degrees."""
     return 1e3 * data["x"].values, np.degrees(data["phi"].values)
 

@@ -3,11 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from reports.figures.drawing import WIDTH
-
-Array = NDArray[np.float64]
 
 LEFT, RIGHT, GAP = 0.62, 0.26, 0.10  # inches beside the panels and between them
 
@@ -28,8 +26,8 @@ class Curves:
         Abscissas of vertical lines of this panel alone, with their colours.
     """
 
-    reference: Array
-    rom: Array
+    reference: Floats
+    rom: Floats
     note: str = ""
     calcified: bool = False
     marked: tuple[tuple[float, str], ...] = ()
@@ -78,7 +76,7 @@ class Layout:
         """Left edges of the panels."""
         return [k * (self.width + GAP) for k in range(self.count)]
 
-    def place(self, column: int, abscissa: Array | float) -> Array:
+    def place(self, column: int, abscissa: Floats | float) -> Floats:
         """Inches from the first panel's left edge."""
         share = (np.asarray(abscissa, dtype=float) - self.low) / (self.high - self.low)
         return np.asarray(self.lefts[column] + self.width * share)

@@ -11,12 +11,10 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from cases.arrays import Flags, Floats
 from reports.figures.drawing import STYLE, WIDTH, svg_text
 from reports.figures.heat_maps import cell_borders, colour_bar, edges_of
-
-Array = NDArray[np.float64]
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.25, 0.75, 0.22, 0.30
 _HEIGHT, _BAR = 1.12, 0.08
@@ -37,14 +35,14 @@ class Tube:
         Cells to outline.
     """
 
-    drawn: Array
-    shade: Array
-    calcified: NDArray[np.bool_]
+    drawn: Floats
+    shade: Floats
+    calcified: Flags
 
 
 def tubes(
-    x: Array,
-    phi: Array,
+    x: Floats,
+    phi: Floats,
     seen_from: float,
     columns: Sequence[str],
     rows: Sequence[tuple[str, Sequence[Tube]]],
@@ -111,7 +109,7 @@ def tubes(
         return svg_text(figure)
 
 
-def _view(seen_from: float) -> Array:
+def _view(seen_from: float) -> Floats:
     """Rows: the directions to the right, up and towards the eye, flow from left to right."""
     eye = np.array([_UPSTREAM, np.cos(seen_from), np.sin(seen_from)])
     eye /= np.linalg.norm(eye)
@@ -120,21 +118,21 @@ def _view(seen_from: float) -> Array:
     return np.stack([right, np.cross(eye, right), eye])
 
 
-def _across(x: Array, radius: float, view: Array) -> tuple[float, float]:
+def _across(x: Floats, radius: float, view: Floats) -> tuple[float, float]:
     """Leftmost and rightmost point of a tube of this radius."""
     ends = np.array([x[0], x[-1]]) * view[0, 0]
     aside = radius * float(np.hypot(view[0, 1], view[0, 2]))
     return float(ends.min()) - aside, float(ends.max()) + aside
 
 
-def _points(x: Array, phi: Array, radius: Array) -> Array:
+def _points(x: Floats, phi: Floats, radius: Floats) -> Floats:
     """Points of the wall, shape (x, phi, 3)."""
     return np.stack(
         [np.broadcast_to(x[:, None], radius.shape), radius * np.cos(phi), radius * np.sin(phi)], axis=-1
     )
 
 
-def _paint(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array, norm: Normalize) -> None:
+def _paint(axis: Axes, x: Floats, phi: Floats, tube: Tube, view: Floats, norm: Normalize) -> None:
     """Paint facets between neighbouring centres, the farthest first; facets that face the eye are lighter."""
     at = _points(x, phi, tube.drawn) @ view.T
     corners = np.stack(
@@ -160,7 +158,7 @@ def _paint(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array, norm: Norm
     _outline(axis, x, phi, tube, view)
 
 
-def _outline(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array) -> None:
+def _outline(axis: Axes, x: Floats, phi: Floats, tube: Tube, view: Floats) -> None:
     """Outline the calcified cells where they face the eye."""
     edges = (edges_of(x), edges_of(phi))
     borders = cell_borders(*edges, tube.calcified)
@@ -176,7 +174,7 @@ def _outline(axis: Axes, x: Array, phi: Array, tube: Tube, view: Array) -> None:
         axis.plot(*ends.T, color=colour, linewidth=width, solid_capstyle="projecting")
 
 
-def _at_corners(radius: Array) -> Array:
+def _at_corners(radius: Floats) -> Floats:
     """Radius at the cells' corners, shape (n_x + 1, n_phi + 1): the mean of the cells that meet there."""
     along = np.pad(radius, ((1, 1), (0, 0)), mode="edge")
     along = (along[1:] + along[:-1]) / 2
@@ -184,7 +182,7 @@ def _at_corners(radius: Array) -> Array:
     return np.asarray((around[:, 1:] + around[:, :-1]) / 2)
 
 
-def _scale(axis: Axes, start: float, view: Array) -> None:
+def _scale(axis: Axes, start: float, view: Floats) -> None:
     """Draw a bar along the axis of the artery, in millimetres as drawn, below the lumen."""
     left, right = start * view[0, 0], (start + 5.0) * view[0, 0]
     low = axis.get_ylim()[0]

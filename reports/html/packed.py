@@ -9,9 +9,8 @@ import zlib
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from cases.arrays import Floats
 
 LEVELS = 65534  # the largest whole number that stands for a value
 ABSENT = 65535  # stands for what is not finite
@@ -42,7 +41,7 @@ class Packed:
         return asdict(self)
 
 
-def pack(values: Array) -> Packed:
+def pack(values: Floats) -> Packed:
     """Pack an array of any shape; the values come back to 1/131068 of their range."""
     finite = np.isfinite(values)
     low, high = (float(values[finite].min()), float(values[finite].max())) if finite.any() else (0.0, 0.0)

@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from cases.arrays import Floats
 from cases.fields import FIELDS, Field
-from reports.html.packed import Array, pack
+from reports.html.packed import pack
 from reports.result.load import Comparison
 from reports.result.metrics import DIFFERENCE_STATISTICS, Metrics, Row
 from reports.sections.artery import has_shape, view
@@ -65,7 +66,7 @@ def _artery(comparison: Comparison) -> dict[str, float] | None:
     }
 
 
-def _digits(values: Array) -> list[float]:
+def _digits(values: Floats) -> list[float]:
     return [float(f"{value:.6g}") for value in values]
 
 
@@ -88,7 +89,7 @@ def _both(comparison: Comparison, field: Field, data: Any) -> dict[str, Any]:
     }
 
 
-def _shown(field: Field, values: Array) -> Array:
+def _shown(field: Field, values: Floats) -> Floats:
     shown = field.display_factor * values.astype(float)
     if field.name == "profile_exponent":
         shown = np.where(shown > LARGEST_EXPONENT, np.inf, shown)

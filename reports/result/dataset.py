@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from reports.errors import ReportError
 
 MODELS = ("reference", "rom")
@@ -239,7 +239,7 @@ def _text(path: Path, name: str, value: object) -> str:
     return value
 
 
-def _numbers(path: Path, name: str, value: object, kinds: str) -> NDArray[np.float64]:
+def _numbers(path: Path, name: str, value: object, kinds: str) -> Floats:
     numbers = np.atleast_1d(np.asarray(value))
     if numbers.ndim != 1 or numbers.dtype.kind not in kinds or not np.all(np.isfinite(numbers)):
         expected = "finite numbers are" if "f" in kinds else "whole numbers are"

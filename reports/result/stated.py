@@ -3,23 +3,21 @@
 from collections.abc import Callable, Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from reports.blocks import Paragraph
 from reports.result.load import Comparison
 from reports.wording.numbers import listed
 
-Array = NDArray[np.float64]
-
 _MOSTLY = 0.5  # of the cells: a map of fewer is a grey area with specks
 
 
-def anywhere(values: Array) -> bool:
+def anywhere(values: Floats) -> bool:
     """Whether a reference has any value here; NaN is what it does not state."""
     return not bool(np.isnan(values).all())
 
 
-def mostly(values: Array) -> bool:
+def mostly(values: Floats) -> bool:
     """Whether a reference has values in most cells, so that a map of them can be read."""
     return bool(np.isnan(values).mean() <= 1 - _MOSTLY)
 

@@ -5,8 +5,9 @@ from functools import partial
 
 import numpy as np
 
+from cases.arrays import Floats
 from reports.blocks import Figure, Interactive, Paragraph, Section
-from reports.figures.lumen import Array, cells_header, cells_text, field
+from reports.figures.lumen import cells_header, cells_text, field
 from reports.figures.tubes import Tube, tubes
 from reports.result.load import Comparison
 from reports.wording.numbers import SPACE, fixed, listed, share
@@ -61,7 +62,7 @@ def _middle(comparison: Comparison) -> float:
     return float(np.angle((share * np.exp(1j * comparison.fields["phi"].values)).sum()) % (2 * np.pi))
 
 
-def _tube(data: Array, calcified: Array, seen: View) -> Tube:
+def _tube(data: Floats, calcified: Floats, seen: View) -> Tube:
     drawn = seen.rest_radius + seen.exaggeration * (data - seen.rest_radius)
     return Tube(1e3 * drawn, 1e3 * data, calcified > 0)
 

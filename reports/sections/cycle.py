@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.fields import FIELDS, Field
 from reports.blocks import Block, Figure, Interactive, Paragraph, Section, Subsection
 from reports.figures.curves import small_multiples
@@ -28,8 +28,6 @@ from reports.wording.numbers import (
 from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, row_heading, spot
 
-Array = NDArray[np.float64]
-
 _SYMBOLS = {"pressure": "P", "radius": "R", "sector_flow_rate": "$q_φ$", "section_flow_rate": "q"}
 
 
@@ -39,8 +37,8 @@ class _Line:
 
     field: Field
     j: int | None
-    reference: Array
-    rom: Array
+    reference: Floats
+    rom: Floats
 
 
 def _line(comparison: Comparison, variant: str, quantity: str, j: int | None) -> _Line:
@@ -82,7 +80,7 @@ def _farthest(comparison: Comparison, line: _Line) -> str:
     return f"{line.field.label} {value} ({where}){_kind(difference[:, column], unit, factor)}"
 
 
-def _kind(difference: Array, unit: str, factor: float) -> str:
+def _kind(difference: Floats, unit: str, factor: float) -> str:
     """Say whether a difference over the cycle is an offset or changes; "" where too little is stated."""
     if not np.isfinite(difference).all():
         return ""

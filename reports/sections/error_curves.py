@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Flags, Floats
 from reports.blocks import Figure
 from reports.figures.curves import REFERENCE_COLOUR, ROM_COLOUR, small_multiples
 from reports.figures.panels import Curves, PanelRow
@@ -16,8 +16,6 @@ from reports.sections.cells import chunks
 from reports.wording.numbers import SPACE, fixed, listed, percent, unsigned
 from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, instant, place, row_heading, top_to_bottom
-
-Array = NDArray[np.float64]
 
 _LOW, _HIGH, _MOST = 1.0, 6.0, 30.0  # exponents of the curves: a cusp, a blunt profile, nearly plug flow
 
@@ -29,14 +27,12 @@ class _Line:
     label: str
     t_s: float
     j: int
-    errors: Array
-    reference: Array
-    rom: Array
+    errors: Floats
+    reference: Floats
+    rom: Floats
 
 
-def _line(
-    comparison: Comparison, variant: str, named: int, j: int, label: str, drawn: NDArray[np.bool_]
-) -> _Line:
+def _line(comparison: Comparison, variant: str, named: int, j: int, label: str, drawn: Flags) -> _Line:
     curves = comparison.error_curves.sel(variant=variant).isel(
         compare_time=named, compare_phi=comparison.j.index(j)
     )
@@ -45,7 +41,7 @@ def _line(
     return _Line(label, comparison.times[named][1], j, curves.values[:, drawn], *both)
 
 
-def _lines(comparison: Comparison, variant: str, drawn: NDArray[np.bool_]) -> list[_Line]:
+def _lines(comparison: Comparison, variant: str, drawn: Flags) -> list[_Line]:
     """All instants where one row stands for all, else all rows at the first instant."""
     rows = comparison.rows_of(variant)
     if len(rows) == 1:
@@ -56,7 +52,7 @@ def _lines(comparison: Comparison, variant: str, drawn: NDArray[np.bool_]) -> li
     return [_line(comparison, variant, 0, j, row_heading(comparison, j), drawn) for j in rows]
 
 
-def _panel(comparison: Comparison, variant: str, line: _Line, i: int, exponents: Array) -> Curves:
+def _panel(comparison: Comparison, variant: str, line: _Line, i: int, exponents: Floats) -> Curves:
     k = comparison.i.index(i)
     marked = ((float(line.reference[k]), REFERENCE_COLOUR), (float(line.rom[k]), ROM_COLOUR))
     return Curves(
@@ -98,7 +94,7 @@ def _size(error: float | None) -> str:
     return unsigned(percent(error))
 
 
-def _drawn(comparison: Comparison, variant: str) -> NDArray[np.bool_]:
+def _drawn(comparison: Comparison, variant: str) -> Flags:
     """Which of the stored exponents are drawn: up to the largest of both models, within reason."""
     values = comparison.curves.sel(variant=variant)
     both = np.concatenate(

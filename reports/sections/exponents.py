@@ -5,9 +5,10 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
+from cases.arrays import Floats
 from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
-from reports.figures.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
+from reports.figures.lumen import WITHOUT_INSTANT, cells_csv, centres, field, outlined
 from reports.result.load import Comparison
 from reports.result.stated import mostly, stated_variants
 from reports.sections import error_curves
@@ -26,7 +27,7 @@ def _row(data: xr.Dataset, label: str, limits: tuple[float, float] | None) -> Ma
     )
 
 
-def _exponents(data: xr.Dataset) -> Array:
+def _exponents(data: xr.Dataset) -> Floats:
     both = [field(data, f"{model}_profile_exponent").ravel() for model in ("reference", "rom")]
     values = np.concatenate(both)
     return values[np.isfinite(values)]

@@ -6,10 +6,11 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
+from cases.arrays import Floats
 from cases.fields import FIELDS, Field
 from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
-from reports.figures.lumen import WITHOUT_INSTANT, Array, cells_csv, centres, field, outlined
+from reports.figures.lumen import WITHOUT_INSTANT, cells_csv, centres, field, outlined
 from reports.result.load import Comparison
 from reports.result.stated import mostly, stated_variants
 from reports.wording.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
@@ -19,7 +20,7 @@ _MAPPED = ("radius", "sector_flow_rate", "profile_exponent", "pressure")
 _SYMBOLS = {"radius": "R", "sector_flow_rate": "$q_φ$", "profile_exponent": "γ", "pressure": "P"}
 
 
-def _difference(data: xr.Dataset, name: str) -> Array:
+def _difference(data: xr.Dataset, name: str) -> Floats:
     """2D − 3D in SI; NaN where a profile exponent is infinite in both."""
     with np.errstate(invalid="ignore"):
         return field(data, f"rom_{name}") - field(data, f"reference_{name}")

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.fields import FIELDS
 from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
 from reports.figures.curves import small_multiples
@@ -29,8 +29,8 @@ class _Line:
     label: str
     t_s: float
     j: int
-    reference: NDArray[np.float64]
-    rom: NDArray[np.float64]
+    reference: Floats
+    rom: Floats
 
 
 def _line(comparison: Comparison, variant: str, state: int, j: int, label: str) -> _Line:

@@ -13,14 +13,12 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
+from cases.arrays import Flags, Floats
 from reports.figures.curves import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
 from reports.figures.drawing import STYLE, WIDTH, legend_above, svg_text
 from reports.figures.heat_maps import edges_of, scale_colours
 from reports.sweep.words import steady
-
-Array = NDArray[np.float64]
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.98, 0.10, 0.30, 0.62
 _GAP, _ROW_GAP = 0.12, 0.16
@@ -37,7 +35,7 @@ class Abscissa:
     """A parameter's axis: its label, its values at the samples, whether it is logarithmic."""
 
     label: str
-    values: Array
+    values: Floats
     logarithmic: bool = False
 
 
@@ -46,9 +44,9 @@ class Ordinate:
     """An output's axis: label, values at the samples, limit of its band (NaN: none), which are within it."""
 
     label: str
-    values: Array
+    values: Floats
     limit: float
-    ok: NDArray[np.bool_]
+    ok: Flags
 
 
 def responses(columns: Sequence[Abscissa], rows: Sequence[Ordinate]) -> str:
@@ -114,7 +112,7 @@ def _limits(row: Ordinate) -> list[float]:
     return [-row.limit, row.limit] if np.nanmin(row.values) < 0 else [row.limit]
 
 
-def means(abscissas: Array, ordinates: Array) -> tuple[Array, Array]:
+def means(abscissas: Floats, ordinates: Floats) -> tuple[Floats, Floats]:
     """Mean over samples with one abscissa, or where these are many over groups of neighbours."""
     most = min(_MOST_GROUPS, max(3, abscissas.size // _NEIGHBOURS))
     known = np.isfinite(ordinates)
@@ -210,11 +208,11 @@ def _cells(axis: Axes, pair: Plane, row: Ordinate, norm: Normalize) -> None:
             axis.contour(x, y, values, levels=levels, colors=colour, linewidths=width, linestyles="solid")
 
 
-def _edges(centres: Array, logarithmic: bool) -> Array:
+def _edges(centres: Floats, logarithmic: bool) -> Floats:
     return np.exp(edges_of(np.log(centres))) if logarithmic else edges_of(centres)
 
 
-def _norm(values: Array) -> Normalize:
+def _norm(values: Floats) -> Normalize:
     low, high = float(np.min(values)), float(np.max(values))
     if high - low <= 1e-9 * max(abs(low), abs(high)):
         low, high = low - (0.05 * abs(low) or 1.0), high + (0.05 * abs(high) or 1.0)
@@ -237,10 +235,10 @@ class Bars:
     """Indices of one output: first order and total, a value and half an interval for each parameter."""
 
     title: str
-    first: Array
-    first_half: Array
-    total: Array
-    total_half: Array
+    first: Floats
+    first_half: Floats
+    total: Floats
+    total_half: Floats
 
 
 def index_bars(names: Sequence[str], panels: Sequence[Bars]) -> str:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from cases.arrays import Flags, Floats
 from reports.sweep.load import Sweep
 from reports.sweep.study_file import Band, Output, Parameter
 from reports.sweep.words import amount
@@ -61,11 +61,11 @@ class Held:
     variant: str
     output: Output
     band: Band
-    ok: NDArray[np.bool_]
+    ok: Flags
     samples: pd.DataFrame
 
     @property
-    def sizes(self) -> NDArray[np.float64]:
+    def sizes(self) -> Floats:
         """What the limit is compared with, shape (n,)."""
         return np.asarray(np.abs(self.samples[self.output.name].to_numpy(dtype=float)))
 

@@ -4,8 +4,9 @@ from functools import partial
 
 import numpy as np
 
+from cases.arrays import Floats
 from reports.blocks import Block, Column, Figure, Paragraph, Section, Subsection, Table
-from reports.sweep.drawing import Array, Bars, index_bars
+from reports.sweep.drawing import Bars, index_bars
 from reports.sweep.load import Sweep
 from reports.sweep.study_file import Index, Output
 from reports.wording.numbers import ABSENT, fixed
@@ -15,7 +16,7 @@ _PANELS = 6  # outputs of one figure
 _KINDS = ("S1", "S1_conf", "ST", "ST_conf")
 
 
-def _column(rows: list[Index], name: str) -> Array:
+def _column(rows: list[Index], name: str) -> Floats:
     return np.array([np.nan if (value := getattr(row, name)) is None else value for row in rows])
 
 

@@ -5,12 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from reports.errors import ReportError
 from reports.sweep.study_file import Band, Output, Parameter, Study, read_study
-
-Array = NDArray[np.float64]
 
 STUDY, SAMPLES = "study.json", "samples"
 OK, FAILED = "ok", "failed"
@@ -110,6 +108,6 @@ def _check(path: Path, study: Study, samples: pd.DataFrame) -> None:
         raise ReportError(f"{path}: sample {doubled.iloc[0]} is recorded twice")
 
 
-def shown(item: Parameter | Output, samples: pd.DataFrame) -> Array:
+def shown(item: Parameter | Output, samples: pd.DataFrame) -> Floats:
     """Values of a parameter or output in the unit that people read."""
     return np.asarray(samples[item.name].to_numpy(dtype=float) * item.display_factor)

@@ -5,8 +5,8 @@ from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from cases.sections.solver import GodunovSolver
 from solver.case.model import monitor_of
@@ -28,8 +28,6 @@ from solver.wall.smooth_patch import smooth_wall
 
 THREADS = 2
 RAMP = 0.08  # s over which the wall stiffens before a run from the steady state
-
-Floats = NDArray[np.float64]
 
 
 def setup_of(case: Case, model: Model) -> Setup:

@@ -1,8 +1,8 @@
 """The error of taking a membrane's section to answer its own pressure alone, after a run."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.stiffness import wall_on_grid
 from solver.case.wall import has_section_pressure, membrane_of
@@ -11,8 +11,6 @@ from solver.wall.membrane_tables import locality_error
 from solver.wall.sections import SectionWall
 
 LARGEST = 1e-3  # share of the radius beyond which the assumption fails
-
-Floats = NDArray[np.float64]
 
 
 def widest(pressure: Floats) -> Floats:

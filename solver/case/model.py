@@ -1,9 +1,9 @@
 """From a checked case to the model that the solver runs; its wall is in :mod:`solver.case.wall`."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 import cases.sections.outlet as stated
+from cases.arrays import Flags, Floats
 from cases.sections.case import Case
 from cases.sections.inlet import PrescribedInlet
 from cases.sections.solver import RESOLVED_PER_CYCLE, SemiImplicitSolver
@@ -33,7 +33,7 @@ def grid_of(case: Case) -> Grid:
     return Grid(case.geometry.length, case.solver.n_x, case.solver.n_phi)
 
 
-def calcified_cells(case: Case) -> NDArray[np.bool_]:
+def calcified_cells(case: Case) -> Flags:
     """Whether each cell's centre lies in a calcified rectangle, (n_x, n_phi)."""
     grid = grid_of(case)
     inside = np.zeros((grid.n_x, grid.n_phi), dtype=bool)
@@ -132,14 +132,14 @@ def error_tolerance(case: Case) -> float | None:
     return case.solver.error_tolerance if isinstance(case.solver, SemiImplicitSolver) else None
 
 
-def monitor_of(case: Case, model: Model, history: NDArray[np.float64] | None = None) -> Monitor:
+def monitor_of(case: Case, model: Model, history: Floats | None = None) -> Monitor:
     """Monitor with the limits of a case; ``history`` is that of the run that is continued."""
     stated = case.solver.limits
     limits = Limits() if stated is None else Limits(**stated.model_dump())
     return Monitor(model, limits, case.inlet.period / RESOLVED_PER_CYCLE, history)
 
 
-def default_output_times(case: Case) -> NDArray[np.float64]:
+def default_output_times(case: Case) -> Floats:
     """Return the times of the saved states of a plain run, from 0 to the end of the last cycle, s."""
     duration = case.inlet.period * case.solver.cycles
     interval = case.solver.output_interval or case.inlet.period / OUTPUTS_PER_CYCLE

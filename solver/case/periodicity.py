@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 
 PERIODIC = 1e-4  # relative change over the last cycle from which a run is not periodic
@@ -42,7 +42,7 @@ def cycle_change(case: Case, fields: Mapping[Any, Any]) -> float | None:
     return max(changes)
 
 
-def _state_at(times: NDArray[np.float64], instant: float, apart: float) -> int | None:
+def _state_at(times: Floats, instant: float, apart: float) -> int | None:
     nearest = int(np.argmin(np.abs(times - instant)))
     return nearest if abs(times[nearest] - instant) <= apart else None
 

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.model import error_tolerance, initial_state
 from solver.case.semi_implicit import azimuthal_flux_of
@@ -15,8 +15,6 @@ from solver.marching.walk import require_exponents
 from solver.model.parameters import Model
 from solver.runs.result import CellHistory
 from solver.schemes.rows.balance import closed_exponents
-
-Floats = NDArray[np.float64]
 
 
 def is_plain(case: Case) -> bool:

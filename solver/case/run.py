@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.godunov import walk_godunov
 from solver.case.locality import wall_locality_error, widest
@@ -20,7 +20,7 @@ from solver.runs.result import cell_dataset
 SCHEMES = {"godunov": walk_godunov, "semi_implicit": walk_semi_implicit}
 
 
-def walk(case: Case, model: Model, times: NDArray[np.float64], kept: Kept | None = None) -> Iterator[Stop]:
+def walk(case: Case, model: Model, times: Floats, kept: Kept | None = None) -> Iterator[Stop]:
     """Run a case through ``times`` (s) with its scheme.
 
     The first stop is the start, or where ``kept`` was left: from there the run goes on to the same bits as

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import fields
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.model import error_tolerance, initial_state, monitor_of
 from solver.marching.semi_implicit import Snapshot, snapshots
@@ -14,9 +14,7 @@ from solver.model.cross_flow import azimuthal_flux
 from solver.model.parameters import Model, State
 
 
-def walk_semi_implicit(
-    case: Case, model: Model, times: NDArray[np.float64], kept: Kept | None = None
-) -> Iterator[Stop]:
+def walk_semi_implicit(case: Case, model: Model, times: Floats, kept: Kept | None = None) -> Iterator[Stop]:
     """Run a case through ``times`` (s); the first is where it starts, or where ``kept`` was left.
 
     Raises
@@ -41,7 +39,7 @@ def walk_semi_implicit(
         )
 
 
-def azimuthal_flux_of(model: Model, state: State) -> NDArray[np.float64] | None:
+def azimuthal_flux_of(model: Model, state: State) -> Floats | None:
     """W of the cells, m²/s; None where rows keep their own blood."""
     if model.section_wall is None or state.pressure is None:
         return None

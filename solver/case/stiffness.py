@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
+from cases.arrays import Floats
 from cases.sections.calcification import AxialTransition, LocalCalcification, Part, PatchTransition
 from cases.sections.case import Case
 from cases.sections.wall import HomogeneousWall, LayeredWall, TableWall, row_wall
@@ -19,8 +19,6 @@ from solver.wall.table import MasterCurve, WallTable, wall_table
 
 # loads that a nonlinear wall is tabulated for, as shares of the healthy Young's modulus
 LOWEST_LOAD, HIGHEST_LOAD = -0.04, 0.12
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from cases.sections.solver import SemiImplicitSolver
 from cases.sections.wall import LayeredWall, MembraneWall, OwnWall, row_wall
@@ -15,8 +15,6 @@ from solver.wall.sections import SectionWall, linear_section_wall, row_table, ta
 from solver.wall.table import WallTable
 
 NONLINEAR_GROWTH = 0.25  # R/R₀ − 1 of the softest row of a nonlinear base at the highest pressure
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.geometry.grid import Grid
 
 ROUND_OFF = 1e-12
@@ -31,9 +31,7 @@ class Patch:
     phi_transition: float | None = None
 
 
-def distance_to_interval(
-    value: NDArray[np.float64], first: float, last: float, period: float | None
-) -> NDArray[np.float64]:
+def distance_to_interval(value: Floats, first: float, last: float, period: float | None) -> Floats:
     """Distance of values to an interval, 0 inside; periodic if a period is given."""
     middle, half = 0.5 * (first + last), 0.5 * (last - first)
     offset = value - middle
@@ -45,18 +43,18 @@ def distance_to_interval(
     return np.where(distance > on_edge, distance, 0.0)
 
 
-def distance_around(phi: NDArray[np.float64], first: float, last: float) -> NDArray[np.float64]:
+def distance_around(phi: Floats, first: float, last: float) -> Floats:
     """Angle from φ to the arc that runs from ``first`` to ``last`` in positive direction, rad."""
     return distance_to_interval(phi, first, last if last > first else last + 2 * np.pi, 2 * np.pi)
 
 
-def _scaled(distance: NDArray[np.float64], length: float | None) -> NDArray[np.float64]:
+def _scaled(distance: Floats, length: float | None) -> Floats:
     if length is None:
         return np.where(distance > 0, np.inf, 0.0)
     return distance / length
 
 
-def scaled_distance(grid: Grid, patch: Patch) -> NDArray[np.float64]:
+def scaled_distance(grid: Grid, patch: Patch) -> Floats:
     """Distance d of each cell centre to the patch in units of the transition lengths (2.2.59).
 
     Returns
@@ -72,9 +70,7 @@ def scaled_distance(grid: Grid, patch: Patch) -> NDArray[np.float64]:
     return np.hypot(along[:, None], around[None, :])
 
 
-def calcified_stiffness(
-    healthy: float, calcified: float, distance: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def calcified_stiffness(healthy: float, calcified: float, distance: Floats) -> Floats:
     """β = (β_H+β_C)/2 − (β_H−β_C)/2 · cos(πd) for d < 1, β_H beyond (2.2.60).
 
     Parameters

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 
 
@@ -44,11 +44,11 @@ class Grid:
         return self.dphi if self.mirrored else 0.5 * self.dphi
 
     @property
-    def x(self) -> NDArray[np.float64]:
+    def x(self) -> Floats:
         """Cell centres along the artery, m, (n_x,)."""
         return np.asarray((np.arange(self.n_x) + 0.5) * self.dx)
 
     @property
-    def phi(self) -> NDArray[np.float64]:
+    def phi(self) -> Floats:
         """Cell centres around the artery, rad, (n_phi,)."""
         return np.asarray((np.arange(self.n_phi) + 0.5) * self.dphi)

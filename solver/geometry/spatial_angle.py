@@ -1,15 +1,13 @@
 """The radius of a deformed wall at fixed spatial angles, from displacements of its material points."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import spline_filter1d
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 
 MOST_SWEEPS = 60
 CLOSE = 1e-13  # rad
-
-Floats = NDArray[np.float64]
 
 
 def radius_at_angles(radius: float, radial: Floats, tangential: Floats) -> Floats:

@@ -5,13 +5,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.geometry.grid import Grid
 from solver.model.parameters import Model
 
 ROUND_OFF = 1e-12  # relative difference of rows that are alike
 FEWEST_ROWS = 4  # of a half
-
-Floats = NDArray[np.float64]
 
 
 def fewer_rows(model: Model) -> Model:

@@ -1,15 +1,13 @@
 """A state of the staggered scheme on the columns inlet, cells, outlet."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.model.diagnostics import Columns
 from solver.model.parameters import Model, State
 from solver.schemes.rows.balance import closed_exponents
 from solver.schemes.walls import tabulated_area
 from solver.wall.stiffness import area_from_pressure
-
-Floats = NDArray[np.float64]
 
 
 def columns_of(model: Model, state: State) -> Columns:

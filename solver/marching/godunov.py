@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from cases.arrays import Floats, Integers
 from solver.errors import ModelError, NoAdmissibleProfile, NotSteady, RunFailure, WallCollapse
 from solver.marching.godunov_setup import Setup, State
 from solver.marching.godunov_slabs import Slab, advance, cut, gather
 from solver.schemes.godunov import layout
 from solver.schemes.godunov.steady import Stopping
 
-Floats = NDArray[np.float64]
 Progress = Callable[[float, float], None]
 
 _NO_CRITERIA = Stopping(False, np.inf, np.inf, np.inf, np.inf, np.inf)
@@ -138,7 +138,7 @@ class Trajectory:
     courant: float
 
 
-def target_steps(setup: Setup, begin: float, times: ArrayLike) -> NDArray[np.int64]:
+def target_steps(setup: Setup, begin: float, times: ArrayLike) -> Integers:
     """Count the steps from ``begin`` (s) to the one nearest to each of ``times``, (n,).
 
     Raises

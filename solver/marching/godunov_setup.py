@@ -4,15 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 from solver.geometry.grid import Grid
 from solver.model.waveform import load_curve
 from solver.schemes.godunov import layout
 from solver.wall.smooth_patch import SmoothWall
 
-Floats = NDArray[np.float64]
 Signal = Callable[[Floats], Floats]
 
 LIMITERS = {

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.schemes.godunov import step as scheme
 from solver.schemes.godunov.layout import OK, Fields, Parameters, Ramp, Workspace, stride, workspace
 from solver.schemes.godunov.steady import Stopping
@@ -62,13 +62,13 @@ def cut(fields: Fields, ramp: Ramp, parameters: Parameters, count: int) -> list[
     return slabs
 
 
-def _fields(along: dict[str, NDArray[np.float64]], behind: Fields) -> Fields:
+def _fields(along: dict[str, Floats], behind: Fields) -> Fields:
     """Copy fields along a part of the artery, and what lies behind the outlet."""
     copied = {name: np.array(values) for name, values in along.items()}
     return Fields(**copied, reservoir=behind.reservoir.copy())
 
 
-def _columns(slab: Slab, values: NDArray[np.float64], begin: int, end: int) -> NDArray[np.float64]:
+def _columns(slab: Slab, values: Floats, begin: int, end: int) -> Floats:
     width = stride(slab.parameters.n_phi)
     return values[(begin - slab.first) * width : (end - slab.first) * width]
 
@@ -97,9 +97,9 @@ def advance(
     slabs: list[Slab],
     pool: ThreadPoolExecutor,
     stopping: Stopping,
-    inlets: NDArray[np.float64],
-    offsets: NDArray[np.float64],
-    loads: NDArray[np.float64],
+    inlets: Floats,
+    offsets: Floats,
+    loads: Floats,
 ) -> Outcome:
     """Advance all slabs by one step per entry of ``inlets``; as :func:`solver.schemes.godunov.step.advance`.
 

@@ -4,8 +4,9 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from cases.arrays import Floats
 from solver.errors import (
     BeyondWallTable,
     ModelError,
@@ -36,8 +37,6 @@ FAILURES: dict[int, type[RunFailure]] = {
     layout.NOT_FINITE: NotFinite,
 }
 CELL_FAILURES = (layout.NO_ADMISSIBLE_PROFILE, layout.WALL_COLLAPSE, layout.BEYOND_WALL_TABLE)
-
-Floats = NDArray[np.float64]
 
 
 class Kernel(NamedTuple):

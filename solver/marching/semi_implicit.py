@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from cases.arrays import Floats
 from solver.errors import ModelError, NotConverged, RunFailure
 from solver.marching.choice import stepper_of
 from solver.marching.columns import columns_of
@@ -76,18 +77,18 @@ class Trajectory:
     """
 
     model: Model
-    times: NDArray[np.float64]
-    area: NDArray[np.float64]
-    pressure: NDArray[np.float64]
-    flow: NDArray[np.float64]
-    mass_defect: NDArray[np.float64]
+    times: Floats
+    area: Floats
+    pressure: Floats
+    flow: Floats
+    mass_defect: Floats
     steps: int
     sweeps: int
     longest_step: float
-    diagnostics: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    diagnostics: dict[str, Floats] = field(default_factory=dict)
 
 
-def checked_times(output_times: ArrayLike, time_step: float) -> NDArray[np.float64]:
+def checked_times(output_times: ArrayLike, time_step: float) -> Floats:
     """Output times as an array.
 
     Raises

@@ -1,9 +1,9 @@
 """Steady states: by marching with large implicit steps, and in closed form."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from cases.arrays import Floats
 from solver.errors import ModelError, NotSteady, RunFailure
 from solver.marching.choice import stepper_of
 from solver.marching.row_stepper import offsets
@@ -13,8 +13,6 @@ from solver.schemes.layout import REST_VELOCITY
 
 FIRST_STEP, SHORTEST_STEP, LONGEST_STEP, GROWTH = 1e-3, 1e-5, 0.1, 1.5  # s, s, s, –
 MOST_STEPS = 20_000
-
-Floats = NDArray[np.float64]
 
 
 def _guess(model: Model, inlet_value: float) -> State:

@@ -4,13 +4,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.errors import NoAdmissibleProfile
 from solver.model.diagnostics import Columns, Diagnostics, by_name
 from solver.runs.result import CellHistory
 
-Floats = NDArray[np.float64]
 Kept = dict[str, Floats]
 
 

@@ -6,11 +6,9 @@ varies along a ray: it is given the shape of v_x, 1 − y^γ. Then mass alone gi
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.wall.sections import SectionWall
-
-Floats = NDArray[np.float64]
 
 
 def azimuthal_flux(wall: SectionWall, dx: float, dphi: float, pressure: Floats, flow: Floats) -> Floats:

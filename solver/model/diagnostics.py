@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.errors import AxisNotContinuous, CourantExceeded, EnergyNotBalanced, MassNotConserved, RunFailure
 from solver.model.parameters import Model
 from solver.schemes.rows.balance import balance, linear_wall
@@ -17,8 +17,6 @@ from solver.wall.sections import SectionWall
 
 GAUSS_POINTS = 6  # of ∫A dP for a tabulated wall
 HISTORY = 3  # earlier states that the energy balance interpolates the powers through
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,16 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 from solver.geometry.grid import Grid
 from solver.model.boundary import Inlet, Outlet
 from solver.wall.sections import SectionWall
 from solver.wall.stiffness import area_from_pressure, pressure_from_area
 from solver.wall.table import WallTable
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,14 @@
 """The family of velocity profiles v_x = u s(y; γ), y = r/R (thesis 2.2.2, 2.2.19)."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from cases.arrays import Floats
 
 AVERAGE_EXPONENT = 2.0  # γ of the section's average profile: Poiseuille
 
 
-def shape(y: ArrayLike, exponent: ArrayLike) -> NDArray[np.float64]:
+def shape(y: ArrayLike, exponent: ArrayLike) -> Floats:
     """Profile shape s(y; γ) = (γ+2)/γ · (1 − y^γ), (2.2.19).
 
     Parameters
@@ -26,18 +28,18 @@ def shape(y: ArrayLike, exponent: ArrayLike) -> NDArray[np.float64]:
     return np.asarray((1.0 + 2.0 / gamma) * (1.0 - y**gamma))
 
 
-def momentum_correction(exponent: ArrayLike) -> NDArray[np.float64]:
+def momentum_correction(exponent: ArrayLike) -> Floats:
     """Momentum-correction coefficient α(γ) = 2∫₀¹ y s² dy = (γ+2)/(γ+1)."""
     gamma = np.asarray(exponent, dtype=float)
     return 1.0 + 1.0 / (gamma + 1.0)
 
 
-def axis_ratio(exponent: ArrayLike) -> NDArray[np.float64]:
+def axis_ratio(exponent: ArrayLike) -> Floats:
     """Axial velocity on the axis over the mean velocity, s(0) = (γ+2)/γ."""
     return 1.0 + 2.0 / np.asarray(exponent, dtype=float)
 
 
-def axis_velocity(mean_velocity: NDArray[np.float64]) -> NDArray[np.float64]:
+def axis_velocity(mean_velocity: Floats) -> Floats:
     """Velocity on the axis by the *average* closure, D = (γ_avg+2)/γ_avg · mean_φ(u).
 
     Parameters
@@ -54,7 +56,7 @@ def axis_velocity(mean_velocity: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(axis_ratio(AVERAGE_EXPONENT) * average)
 
 
-def continuity_exponent(mean_velocity: NDArray[np.float64], rest: float) -> NDArray[np.float64]:
+def continuity_exponent(mean_velocity: Floats, rest: float) -> Floats:
     """Exponent that makes the velocity continuous on the axis, γ = 2u/(D − u) (2.2.35).
 
     Parameters

@@ -7,14 +7,13 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 
 CLOSURE = 1e-9  # share of the largest value by which a cycle's ends may differ
-
-Floats = NDArray[np.float64]
 
 
 class Signal(Protocol):

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.model import model_of
 from solver.case.plain_run import is_plain, plain_states
@@ -28,7 +28,6 @@ from solver.marching.walk import history_of
 from solver.model.parameters import Model
 from solver.runs.result import CellHistory
 
-Floats = NDArray[np.float64]
 T = TypeVar("T")
 Keep = Callable[[Model, CellHistory], T]
 

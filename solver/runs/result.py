@@ -4,15 +4,15 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.fields import FIELDS
 from solver.model.parameters import Model
 
 CONVENTIONS = "CF-1.11"
 
 
-def coordinates(time: NDArray[np.float64], x: NDArray[np.float64], phi: NDArray[np.float64]) -> xr.Dataset:
+def coordinates(time: Floats, x: Floats, phi: Floats) -> xr.Dataset:
     """Dataset that holds only the coordinates time (s), x (m) and phi (rad)."""
     return xr.Dataset(
         coords={
@@ -23,7 +23,7 @@ def coordinates(time: NDArray[np.float64], x: NDArray[np.float64], phi: NDArray[
     )
 
 
-def described(name: str, values: NDArray[np.float64]) -> xr.Variable:
+def described(name: str, values: Floats) -> xr.Variable:
     """Values as a variable with the dimensions, unit and words of the table of fields."""
     field = FIELDS[name]
     return xr.Variable(
@@ -37,13 +37,13 @@ class CellHistory(NamedTuple):
     W, m²/s, (n, n_x, n_phi), where rows exchange blood.
     """
 
-    times: NDArray[np.float64]
-    area: NDArray[np.float64]
-    flow: NDArray[np.float64]
-    pressure: NDArray[np.float64]
-    exponent: NDArray[np.float64]
-    diagnostics: dict[str, NDArray[np.float64]]
-    azimuthal_flux: NDArray[np.float64] | None = None
+    times: Floats
+    area: Floats
+    flow: Floats
+    pressure: Floats
+    exponent: Floats
+    diagnostics: dict[str, Floats]
+    azimuthal_flux: Floats | None = None
 
 
 def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
@@ -75,6 +75,6 @@ def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
     return dataset.assign_attrs(Conventions=CONVENTIONS)
 
 
-def section_mean(values: NDArray[np.float64], area: NDArray[np.float64]) -> NDArray[np.float64]:
+def section_mean(values: Floats, area: Floats) -> Floats:
     """Mean over the lumen's section, weight A = R² of each row; (..., n_phi) → (...)."""
     return np.asarray(np.sum(values * area, axis=-1) / np.sum(area, axis=-1))

@@ -15,8 +15,8 @@ from typing import Any
 
 import netCDF4
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.locality import wall_locality_error, widest
 from solver.case.model import default_output_times, model_of
@@ -31,8 +31,6 @@ from solver.runs.files import write_netcdf
 from solver.runs.result import CellHistory, cell_dataset
 
 PIECE = 25  # states
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

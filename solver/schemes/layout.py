@@ -3,7 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from cases.arrays import Floats
 
 OK = 0
 NO_ADMISSIBLE_PROFILE = 1
@@ -17,8 +18,6 @@ SECTION_RESISTANCE, ROW_RESISTANCE, WINDKESSEL, NON_REFLECTING = 0, 1, 2, 3
 
 CACHE_LINE = 64  # bytes
 REST_VELOCITY = 1e-9  # m/s: a section slower than this is at rest and has γ = 2
-
-Array = NDArray[np.float64]
 
 
 class Parameters(NamedTuple):
@@ -60,8 +59,8 @@ class Parameters(NamedTuple):
     reference_pressure: float
     density: float
     kinematic_viscosity: float
-    compliance: Array
-    table: Array
+    compliance: Floats
+    table: Floats
     table_start: float
     table_step: float
     fixed_exponent: float
@@ -89,12 +88,12 @@ class Fields(NamedTuple):
     ``inlet_pressure`` and ``outlet_pressure`` (n_phi,), Pa; ``reservoir`` (1,), the Windkessel's P_c, Pa.
     """
 
-    area: Array
-    flow: Array
-    pressure: Array
-    inlet_pressure: Array
-    outlet_pressure: Array
-    reservoir: Array
+    area: Floats
+    flow: Floats
+    pressure: Floats
+    inlet_pressure: Floats
+    outlet_pressure: Floats
+    reservoir: Floats
 
 
 class Workspace(NamedTuple):
@@ -103,35 +102,35 @@ class Workspace(NamedTuple):
     A mean is the θ-weighted one of the old state and the iterate.
     """
 
-    iterate_pressure: Array  # cells: P of the iterate
-    iterate_area: Array  # cells
-    area_slope: Array  # cells: dA/dP of the iterate
-    mean_area: Array  # cells
-    mean_pressure: Array  # cells
-    held_area: Array  # cells: A' if Q' were 0
-    momentum_flux: Array  # cells: αQ²/A
-    correction: Array  # cells: P' − P of the iterate
-    inverse_pivot: Array  # cells
-    iterate_flow: Array  # faces
-    mean_flow: Array  # faces
-    alpha: Array  # faces
-    damping: Array  # faces: Δt S
-    explicit_flow: Array  # faces: G at the iterate's pressure
-    conductance: Array  # faces: κ
-    inverse_area: Array  # faces
-    velocity: Array  # faces
-    face_area: Array  # (n_x + 1, n_phi + 2): mean, with periodic ghosts
-    inverse_share: Array  # (n_x + 1, n_phi + 2): D/u, with periodic ghosts
-    axis_velocity: Array  # (n_x + 1,): D
-    end_pressure: Array  # (2, n_phi): the iterate's at inlet and outlet
-    end_area: Array  # (2, n_phi): mean, from the end pressures
-    old_end_area: Array  # (2, n_phi)
-    end_slope: Array  # (2, n_phi): dA/dP
-    law: Array  # (2, n_phi): outlet pressure = law[0] + law[1] × flow
-    exchanged: Array  # (2,): volumes that passed inlet and outlet since last reset, m³
+    iterate_pressure: Floats  # cells: P of the iterate
+    iterate_area: Floats  # cells
+    area_slope: Floats  # cells: dA/dP of the iterate
+    mean_area: Floats  # cells
+    mean_pressure: Floats  # cells
+    held_area: Floats  # cells: A' if Q' were 0
+    momentum_flux: Floats  # cells: αQ²/A
+    correction: Floats  # cells: P' − P of the iterate
+    inverse_pivot: Floats  # cells
+    iterate_flow: Floats  # faces
+    mean_flow: Floats  # faces
+    alpha: Floats  # faces
+    damping: Floats  # faces: Δt S
+    explicit_flow: Floats  # faces: G at the iterate's pressure
+    conductance: Floats  # faces: κ
+    inverse_area: Floats  # faces
+    velocity: Floats  # faces
+    face_area: Floats  # (n_x + 1, n_phi + 2): mean, with periodic ghosts
+    inverse_share: Floats  # (n_x + 1, n_phi + 2): D/u, with periodic ghosts
+    axis_velocity: Floats  # (n_x + 1,): D
+    end_pressure: Floats  # (2, n_phi): the iterate's at inlet and outlet
+    end_area: Floats  # (2, n_phi): mean, from the end pressures
+    old_end_area: Floats  # (2, n_phi)
+    end_slope: Floats  # (2, n_phi): dA/dP
+    law: Floats  # (2, n_phi): outlet pressure = law[0] + law[1] × flow
+    exchanged: Floats  # (2,): volumes that passed inlet and outlet since last reset, m³
 
 
-def aligned(shape: tuple[int, ...]) -> Array:
+def aligned(shape: tuple[int, ...]) -> Floats:
     """Zeros that begin on a cache line, so that no vector of a row straddles two."""
     size = int(np.prod(shape))
     buffer = np.zeros(size + CACHE_LINE // 8)

@@ -1,12 +1,13 @@
 """A(P) and dA/dP of the wall (numba kernels)."""
 
-from solver.schemes.layout import BEYOND_WALL_TABLE, OK, WALL_COLLAPSE, Array, Parameters
+from cases.arrays import Floats
+from solver.schemes.layout import BEYOND_WALL_TABLE, OK, WALL_COLLAPSE, Parameters
 from solver.schemes.vectorisation import kernel
 
 
 @kernel
 def _linear(
-    pressure: Array, compliance: Array, radius: float, reference: float, area: Array, slope: Array
+    pressure: Floats, compliance: Floats, radius: float, reference: float, area: Floats, slope: Floats
 ) -> bool:
     """R = R₀ + (P − P₀) dR/dP, A = R², dA/dP = 2R dR/dP; whether dA/dP is positive everywhere."""
     count = 0
@@ -21,7 +22,7 @@ def _linear(
 
 @kernel
 def tabulated_area(
-    pressure: Array, table: Array, start: float, step: float, area: Array, slope: Array
+    pressure: Floats, table: Floats, start: float, step: float, area: Floats, slope: Floats
 ) -> tuple[int, int, int]:
     """Find A and dA/dP of a tabulated wall by cubic Hermite interpolation; OK or BEYOND_WALL_TABLE, i, j."""
     last = table.shape[2] - 2
@@ -43,7 +44,7 @@ def tabulated_area(
 
 
 @kernel
-def _collapsed(slope: Array) -> tuple[int, int, int]:
+def _collapsed(slope: Floats) -> tuple[int, int, int]:
     """WALL_COLLAPSE and the first cell where dA/dP is not positive, or OK."""
     for i in range(slope.shape[0]):
         for j in range(slope.shape[1]):
@@ -53,7 +54,9 @@ def _collapsed(slope: Array) -> tuple[int, int, int]:
 
 
 @kernel
-def wall_area(p: Parameters, first: int, pressure: Array, area: Array, slope: Array) -> tuple[int, int, int]:
+def wall_area(
+    p: Parameters, first: int, pressure: Floats, area: Floats, slope: Floats
+) -> tuple[int, int, int]:
     """Apply the wall law of the columns from ``first`` on to pressures (columns, n_phi).
 
     Returns

@@ -13,15 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 from solver.wall.table import MasterCurve
 
 DEGREE, QUADRATURE = 8, 24  # of the polynomial r(ρ), and points of the integral
 CONVERGED = 1e-12
-
-Floats = NDArray[np.float64]
 
 
 class Stresses(NamedTuple):

@@ -3,7 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from cases.arrays import Floats
 
 
 @dataclass(frozen=True)
@@ -14,7 +16,7 @@ class Layer:
     youngs_modulus: ArrayLike
 
 
-def layered_wall_stiffness(layers: list[Layer], radius: float, poisson_ratio: float) -> NDArray[np.float64]:
+def layered_wall_stiffness(layers: list[Layer], radius: float, poisson_ratio: float) -> Floats:
     """β of bonded layers, from inside to outside, Pa m.
 
     In each layer u_r = a r + b/r and σ_r = E/(1+ν) [a/(1−2ν) − b/r²] (plane strain). From the outer
@@ -37,7 +39,7 @@ def layered_wall_stiffness(layers: list[Layer], radius: float, poisson_ratio: fl
     """
     edges = radius + np.concatenate([[0.0], np.cumsum([layer.thickness for layer in layers])])
     nu = poisson_ratio
-    support: NDArray[np.float64] | float = 0.0  # −σ_r/u_r at the layer's outer edge, Pa/m
+    support: Floats | float = 0.0  # −σ_r/u_r at the layer's outer edge, Pa/m
     for layer, inner, outer in reversed(list(zip(layers, edges[:-1], edges[1:], strict=True))):
         factor = np.asarray(layer.youngs_modulus, dtype=float) / (1 + nu)
         # b/a from −σ_r = support · u_r at the outer edge

@@ -23,15 +23,13 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sparse
-from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
+from cases.arrays import Flags, Floats, Integers
 from solver.errors import ModelError
 
 QUARTERS, FREE = "quarters", "free"
 SUPPORTS = (QUARTERS, FREE)
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -88,7 +86,7 @@ class Membrane:
         return sparse.csr_array(sparse.block_diag(parts, format="csr"))
 
     @cached_property
-    def held(self) -> NDArray[np.bool_]:
+    def held(self) -> Flags:
         """Which u_φ are held at 0, (n_x, m)."""
         n_x, m = self.shear.shape
         held = np.zeros((n_x, m), dtype=bool)
@@ -177,7 +175,7 @@ def displacement(
     return radial, tangential
 
 
-def _sections_first(n_x: int, m: int) -> NDArray[np.int64]:
+def _sections_first(n_x: int, m: int) -> Integers:
     """Order of unknowns in which those of a section are neighbours."""
     return np.arange(2 * n_x * m).reshape(2, n_x, m).transpose(1, 2, 0).ravel()
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.geometry.grid import Grid
 from solver.geometry.spatial_angle import radius_at_angles
 from solver.wall.membrane import Membrane, displacement
@@ -24,8 +24,6 @@ KNOTS = 40  # of the table above p = 0
 KNOTS_BELOW = 4  # and below, where R is continued linearly
 HIGHEST_GROWTH = 0.4  # R/R₀ − 1 of the softest cell's row law at the highest pressure
 VERSION = "1"  # of what is kept: part of its key
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

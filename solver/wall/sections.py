@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from solver.errors import ModelError
 from solver.wall.table import WallTable
 
@@ -17,8 +17,6 @@ LOWEST_SHARE, HIGHEST_SHARE = (
     4.0,
 )  # growth R/R₀ − 1 of the softest cell that a linear wall's table covers
 BISECTIONS = 80
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -109,7 +107,7 @@ class SectionWall:
         area = a0 + t * (d0 + t * (curve + t * twist))
         return area, (d0 + t * (2 * curve + 3 * t * twist)) / self.step
 
-    def _place(self, pressure: Floats) -> tuple[NDArray[np.int64], Floats]:
+    def _place(self, pressure: Floats) -> tuple[Integers, Floats]:
         """Knot below each section's pressure, and the share of a step beyond it."""
         position = (np.asarray(pressure, dtype=float) - self.start) / self.step
         last = self.values.shape[1] - 2
@@ -122,7 +120,7 @@ class SectionWall:
         knot = np.minimum(position.astype(np.int64), last)
         return knot, position - knot
 
-    def _cubic(self, table: Floats, knot: NDArray[np.int64]) -> tuple[Floats, Floats, Floats, Floats]:
+    def _cubic(self, table: Floats, knot: Integers) -> tuple[Floats, Floats, Floats, Floats]:
         """Coefficients of A between knots, of a table (n_x, knots, 2, …), in powers of a step's share."""
         i = np.arange(knot.size)
         a0, d0 = table[i, knot, 0], table[i, knot, 1] * self.step

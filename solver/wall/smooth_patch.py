@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 from solver.geometry.calcification import Patch, distance_around
 from solver.geometry.grid import Grid
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,14 +3,15 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 
 
 def thin_wall_stiffness(
     youngs_modulus: ArrayLike, radius: float, thickness: float, poisson_ratio: float
-) -> NDArray[np.float64]:
+) -> Floats:
     """Thin incompressible wall, β = (4/3) E h (2.2.1); Poisson's ratio is 1/2 by construction.
 
     Parameters
@@ -33,7 +34,7 @@ def thin_wall_stiffness(
 
 def thick_wall_stiffness(
     youngs_modulus: ArrayLike, radius: float, thickness: float, poisson_ratio: float
-) -> NDArray[np.float64]:
+) -> Floats:
     """Thick wall in plane strain (Lamé): β = R₀ E (b² − R₀²)/((1+ν)[(1−2ν)R₀² + b²]), b = R₀ + h.
 
     Parameters
@@ -56,7 +57,7 @@ def thick_wall_stiffness(
     return factor * np.asarray(youngs_modulus, dtype=float)
 
 
-WALL_LAWS: dict[str, Callable[[ArrayLike, float, float, float], NDArray[np.float64]]] = {
+WALL_LAWS: dict[str, Callable[[ArrayLike, float, float, float], Floats]] = {
     "thin": thin_wall_stiffness,
     "thick": thick_wall_stiffness,
 }
@@ -64,7 +65,7 @@ WALL_LAWS: dict[str, Callable[[ArrayLike, float, float, float], NDArray[np.float
 
 def wall_stiffness(
     law: str, youngs_modulus: ArrayLike, radius: float, thickness: float, poisson_ratio: float
-) -> NDArray[np.float64]:
+) -> Floats:
     """β of a named law, Pa m; shape of ``youngs_modulus``.
 
     Raises
@@ -77,16 +78,14 @@ def wall_stiffness(
     return WALL_LAWS[law](youngs_modulus, radius, thickness, poisson_ratio)
 
 
-def pressure_from_area(
-    area: NDArray[np.float64], stiffness: NDArray[np.float64], radius: float, reference_pressure: float
-) -> NDArray[np.float64]:
+def pressure_from_area(area: Floats, stiffness: Floats, radius: float, reference_pressure: float) -> Floats:
     """P = P₀ + β (√A − R₀)/R₀², Pa, with A = R² in m²."""
     return np.asarray(reference_pressure + stiffness * (np.sqrt(area) - radius) / radius**2)
 
 
 def area_from_pressure(
-    pressure: ArrayLike, stiffness: NDArray[np.float64], radius: float, reference_pressure: float
-) -> NDArray[np.float64]:
+    pressure: ArrayLike, stiffness: Floats, radius: float, reference_pressure: float
+) -> Floats:
     """Return A = R² = (R₀ + (P − P₀) R₀²/β)², m²: the inverse of :func:`pressure_from_area`.
 
     Raises

@@ -8,11 +8,9 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.kernel_cache import usable_folder
-
-Floats = NDArray[np.float64]
 
 MOST_ENTRIES = 256  # half a megabyte each on a grid of 120 x 48
 

@@ -9,16 +9,14 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 from solver.schemes.layout import BEYOND_WALL_TABLE
 from solver.schemes.walls import tabulated_area
 
 POINTS = 129  # per cell
-
-Floats = NDArray[np.float64]
 
 
 class MasterCurve(NamedTuple):

@@ -13,10 +13,10 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
+from cases.arrays import Floats
 from cases.errors import CaseError
 from cases.reading.case_file import CaseFile, load_case_file
 from cases.sections.case import Case, LocalCalcification
@@ -38,8 +38,6 @@ from validation.runs.variants import Watch, kind_of, watching
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
 WRONG_INPUT, INTERRUPTED = 2, 130
 PAGE_WIDTH = 160
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,13 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.run import run_case
 from validation.errors import ValidationError
-
-Floats = NDArray[np.float64]
 
 
 def read_table(path: Path) -> pd.DataFrame:

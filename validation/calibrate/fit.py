@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from cases.arrays import Floats
 from cases.errors import CaseError
 from cases.fields import FIELDS
 from cases.reading.calibration_file import Calibration, Parameter, changed_values
@@ -24,8 +24,6 @@ TOLERANCE = 1e-8
 AT_LIMIT = 1e-5  # share of its range, and of its value, within which a parameter lies on its limit
 REACHED = 1e-3  # of a target's value: farther off, it is not attained
 DETERMINED = 1e-4  # of the largest singular value: a direction below it is not seen by the targets
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from ruamel.yaml import YAML
 
+from cases.arrays import Floats
 from cases.errors import CaseError
 from cases.reading.calibration_file import Calibration
 from cases.reading.case_file import load_case_file
@@ -21,7 +21,6 @@ from validation.errors import ValidationError
 SAME = 1e-12  # relative difference of a value that was written and read
 MARK = "# values fitted by python -m validation.calibrate\n"  # last line of a case that may be replaced
 
-Floats = NDArray[np.float64]
 Keys = tuple[str | int, ...]
 
 

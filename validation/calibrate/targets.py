@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.fields import FIELDS
 from cases.reading.calibration_file import Calibration, Place, ReferenceTarget, Target
 from cases.sections.case import Case
@@ -30,8 +30,6 @@ FIELD_OF = {
     "largest_radius": "radius",
     "least_radius": "radius",
 }
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.errors import CaseError
 from cases.reading.case_file import CaseFile, load_case_file
 from febio_io.errors import FebioError
@@ -72,7 +72,7 @@ def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any])
     ]
 
 
-def prescribed_inflow(run: VariantRun) -> NDArray[np.float64] | None:
+def prescribed_inflow(run: VariantRun) -> Floats | None:
     """Flow rate that the case prescribes at the 3D inlet, m³/s; None where there is none to compare."""
     if "inlet_flow_rate" not in run.reference.checks:
         return None

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
 from cases.sections.case import Case, NoCalcification, TablesReference
 from solver.case.model import calcified_cells
@@ -114,7 +114,7 @@ def at_common_instants(
     return kept, notes
 
 
-def both_models(run: VariantRun, times: NDArray[np.float64]) -> xr.Dataset:
+def both_models(run: VariantRun, times: Floats) -> xr.Dataset:
     """One variant on (time, x, phi, y): ``rom_<field>``, ``reference_<field>``, wall.
 
     ``times`` are those of the first variant: instants that variants share differ by round-off.
@@ -141,7 +141,7 @@ def without_fields(run: VariantRun) -> VariantRun:
     )
 
 
-def attributes(file: CaseFile, times: NDArray[np.float64]) -> dict[str, Any]:
+def attributes(file: CaseFile, times: Floats) -> dict[str, Any]:
     """Return the global attributes of a comparison at these instants of the cycle.
 
     Raises

@@ -11,15 +11,13 @@ from typing import Any
 import numpy as np
 import pyvista as pv
 import xarray as xr
-from numpy.typing import NDArray
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFWriter
 
+from cases.arrays import Floats, Integers
 from validation.errors import ValidationError
 from validation.metrics.rows import CELL_QUANTITIES
-
-Floats = NDArray[np.float64]
 
 MODELS = ("rom", "reference")
 
@@ -30,7 +28,7 @@ def edges(centres: Floats) -> Floats:
     return np.append(centres - half, centres[-1] + half)
 
 
-def quadrilaterals(n_x: int, n_phi: int) -> NDArray[np.int64]:
+def quadrilaterals(n_x: int, n_phi: int) -> Integers:
     """Corners of the cells on a closed grid of (n_x + 1) × n_phi points, (n_x n_phi, 4)."""
     i, j = np.divmod(np.arange(n_x * n_phi), n_phi)
     beside = (j + 1) % n_phi

@@ -7,13 +7,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.fields import FIELDS
 from validation.mapping.meshed_profiles import closest_meshed_profile
 from validation.mapping.nodal_shares import TwoRings
 from validation.mapping.rays import Rays
 from validation.mapping.state import MappedState
-
-Floats = NDArray[np.float64]
 
 
 def as_dataset(values: Mapping[str, NDArray[np.floating]], rays: Rays, times: Floats) -> xr.Dataset:

@@ -8,7 +8,8 @@ tetrahedron in the unit simplex. In all of them interpolation is a polynomial in
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from cases.arrays import Floats, Integers
 
 HEXAHEDRON, WEDGE, TETRAHEDRON, PYRAMID = 0, 1, 2, 3
 
@@ -23,8 +24,6 @@ FACES: dict[int, tuple[tuple[int, ...], ...]] = {
     PYRAMID: ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
 }
 
-Array = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 _POWERS = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1))
 _CUBE = ((-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1))
@@ -32,7 +31,7 @@ _PRISM = ((0, 0, -1), (1, 0, -1), (0, 1, -1), (0, 0, 1), (1, 0, 1), (0, 1, 1))
 _SIMPLEX = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
-def _coefficients(corners: tuple[tuple[int, ...], ...], monomials: list[int]) -> Array:
+def _coefficients(corners: tuple[tuple[int, ...], ...], monomials: list[int]) -> Floats:
     """Matrix (8, 8) from values at corners (natural coordinates) to coefficients of some monomials."""
     powers = np.array([_POWERS[m] for m in monomials])
     values = np.prod(np.array(corners, dtype=float)[:, None, :] ** powers, axis=2)
@@ -41,7 +40,7 @@ def _coefficients(corners: tuple[tuple[int, ...], ...], monomials: list[int]) ->
     return matrix
 
 
-def _collapsed(matrix: Array) -> Array:
+def _collapsed(matrix: Floats) -> Floats:
     """Matrix of a pyramid: the top face of a hexahedron drawn together into the apex."""
     found = np.zeros_like(matrix)
     found[:, :4] = matrix[:, :4]
@@ -61,7 +60,7 @@ TO_POLYNOMIAL = np.stack(  # by kind: coefficients (8,) = matrix @ nodal values 
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def expand(kinds: Integers, nodes: Integers, nodal: Array, matrices: Array, coefficients: Array) -> None:
+def expand(kinds: Integers, nodes: Integers, nodal: Floats, matrices: Floats, coefficients: Floats) -> None:
     """Coefficients of the interpolation in every element.
 
     Parameters

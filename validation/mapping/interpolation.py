@@ -4,13 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from cases.arrays import Floats, Integers
 from validation.mapping.elements import TO_POLYNOMIAL, centre, expand, outside_by
-
-Array = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 INSIDE = 1e-6  # natural coordinates may exceed their element by this: shared faces belong to both
 NEAR_WALL = 5e-3  # and by this where no element holds the point: on a curved boundary
@@ -37,27 +34,27 @@ class Shapes(NamedTuple):
     bounding boxes widened by a tenth, m.
     """
 
-    maps: Array
-    low: Array
-    high: Array
+    maps: Floats
+    low: Floats
+    high: Floats
 
 
 class Located(NamedTuple):
     """Where points lie: ``element`` (n,), −1 if nowhere, and ``natural`` (n, 3) coordinates in it."""
 
     element: Integers
-    natural: Array
+    natural: Floats
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _value(c: Array, k: int, r: float, s: float, t: float) -> float:
+def _value(c: Floats, k: int, r: float, s: float, t: float) -> float:
     """Component k of a polynomial with coefficients c (8, m)."""
     plane = c[0, k] + c[2, k] * s + (c[3, k] + c[5, k] * s) * t
     return float(plane + r * (c[1, k] + c[4, k] * s + (c[6, k] + c[7, k] * s) * t))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _slopes(c: Array, k: int, r: float, s: float, t: float) -> tuple[float, float, float]:
+def _slopes(c: Floats, k: int, r: float, s: float, t: float) -> tuple[float, float, float]:
     """Return the derivatives of component k by r, s and t."""
     return (
         float(c[1, k] + c[4, k] * s + (c[6, k] + c[7, k] * s) * t),
@@ -67,7 +64,7 @@ def _slopes(c: Array, k: int, r: float, s: float, t: float) -> tuple[float, floa
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _invert(c: Array, point: Array, r: float, s: float, t: float) -> tuple[bool, float, float, float]:
+def _invert(c: Floats, point: Floats, r: float, s: float, t: float) -> tuple[bool, float, float, float]:
     """Newton's method for the natural coordinates of ``point``, starting from (r, s, t).
 
     ``c`` (8, 3): coefficients of the element's map. Each step solves 3 × 3 equations by Cramer's rule.
@@ -102,7 +99,7 @@ def _invert(c: Array, point: Array, r: float, s: float, t: float) -> tuple[bool,
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _try(
-    element: int, kinds: Integers, maps: Array, point: Array, r: float, s: float, t: float, natural: Array
+    element: int, kinds: Integers, maps: Floats, point: Floats, r: float, s: float, t: float, natural: Floats
 ) -> float:
     """How far ``point`` lies outside ``element``, infinite where unknown; sets its natural coordinates."""
     found, r, s, t = _invert(maps[element], point, r, s, t)
@@ -111,7 +108,7 @@ def _try(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _in_box(element: int, shapes: Shapes, point: Array) -> bool:
+def _in_box(element: int, shapes: Shapes, point: Floats) -> bool:
     for k in range(3):
         if point[k] < shapes.low[element, k] or point[k] > shapes.high[element, k]:
             return False
@@ -119,7 +116,7 @@ def _in_box(element: int, shapes: Shapes, point: Array) -> bool:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _search_neighbours(guess: int, mesh: Topology, shapes: Shapes, point: Array, natural: Array) -> int:
+def _search_neighbours(guess: int, mesh: Topology, shapes: Shapes, point: Floats, natural: Floats) -> int:
     """Element that holds ``point`` among those that share a node with the guess; −1 if none."""
     for n in range(mesh.starts[guess], mesh.starts[guess + 1]):
         element = mesh.neighbours[n]
@@ -131,7 +128,7 @@ def _search_neighbours(guess: int, mesh: Topology, shapes: Shapes, point: Array,
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _search_everywhere(mesh: Topology, shapes: Shapes, point: Array, natural: Array) -> int:
+def _search_everywhere(mesh: Topology, shapes: Shapes, point: Floats, natural: Floats) -> int:
     """Element that holds ``point``, or the nearest one if it lies just outside all; −1 if none."""
     nearest, best = -1, NEAR_WALL
     kept = np.zeros(3)
@@ -149,7 +146,7 @@ def _search_everywhere(mesh: Topology, shapes: Shapes, point: Array, natural: Ar
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _search(guess: int, mesh: Topology, shapes: Shapes, point: Array, natural: Array) -> int:
+def _search(guess: int, mesh: Topology, shapes: Shapes, point: Floats, natural: Floats) -> int:
     """Element that holds ``point``, which the guess does not: a neighbour, else any; −1 if none does."""
     if guess >= 0:
         element = _search_neighbours(guess, mesh, shapes, point, natural)
@@ -159,7 +156,7 @@ def _search(guess: int, mesh: Topology, shapes: Shapes, point: Array, natural: A
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def locate(mesh: Topology, shapes: Shapes, points: Array, located: Located) -> int:
+def locate(mesh: Topology, shapes: Shapes, points: Floats, located: Located) -> int:
     """Find each point's element, starting from where ``located`` says it was.
 
     Parameters
@@ -204,7 +201,7 @@ def locate(mesh: Topology, shapes: Shapes, points: Array, located: Located) -> i
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _evaluate(coefficients: Array, located: Located, values: Array) -> None:
+def _evaluate(coefficients: Floats, located: Located, values: Floats) -> None:
     for n in range(located.element.size):
         c = coefficients[located.element[n]]
         r, s, t = located.natural[n, 0], located.natural[n, 1], located.natural[n, 2]
@@ -212,7 +209,7 @@ def _evaluate(coefficients: Array, located: Located, values: Array) -> None:
             values[n, k] = _value(c, k, r, s, t)
 
 
-def deformed(mesh: Topology, coordinates: Array) -> Shapes:
+def deformed(mesh: Topology, coordinates: Floats) -> Shapes:
     """Elements in the state with these nodal coordinates (n_nodes, 3), m."""
     padding = mesh.nodes < 0
     corners = coordinates[np.where(padding, mesh.nodes[:, :1], mesh.nodes)]  # repeats a node there
@@ -221,20 +218,20 @@ def deformed(mesh: Topology, coordinates: Array) -> Shapes:
     return Shapes(_polynomials(mesh, coordinates), low - margin, high + margin)
 
 
-def interpolate(mesh: Topology, nodal: Array, located: Located) -> Array:
+def interpolate(mesh: Topology, nodal: Floats, located: Located) -> Floats:
     """Finite-element interpolation of nodal values (n_nodes, m) at located points, (n, m)."""
     values = np.empty((located.element.size, nodal.shape[1]))
     _evaluate(_polynomials(mesh, nodal), located, values)
     return values
 
 
-def _polynomials(mesh: Topology, nodal: Array) -> Array:
+def _polynomials(mesh: Topology, nodal: Floats) -> Floats:
     coefficients = np.empty((mesh.kinds.size, 8, nodal.shape[1]))
     expand(mesh.kinds, mesh.nodes, np.ascontiguousarray(nodal), TO_POLYNOMIAL, coefficients)
     return coefficients
 
 
-def topology(kinds: NDArray[np.int64], nodes: NDArray[np.int64], n_nodes: int) -> Topology:
+def topology(kinds: Integers, nodes: Integers, n_nodes: int) -> Topology:
     """Elements with their neighbours.
 
     Parameters
@@ -250,7 +247,7 @@ def topology(kinds: NDArray[np.int64], nodes: NDArray[np.int64], n_nodes: int) -
     return Topology(kinds, nodes, starts, neighbours)
 
 
-def _neighbours(nodes: NDArray[np.int64], n_nodes: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _neighbours(nodes: Integers, n_nodes: int) -> tuple[Integers, Integers]:
     elements, columns = np.nonzero(nodes >= 0)
     ones = np.ones(elements.size, dtype=np.int32)
     incidence = csr_array((ones, (elements, nodes[elements, columns])), shape=(len(nodes), n_nodes))

@@ -6,14 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from validation.errors import UnusableReferenceError
 from validation.mapping.elements import FACES, HEXAHEDRON, NODES, PYRAMID, TETRAHEDRON, WEDGE
 from validation.mapping.interpolation import Topology, topology
 
 KIND_NAMES = {HEXAHEDRON: "hex8", WEDGE: "penta6", TETRAHEDRON: "tet4", PYRAMID: "pyra5"}
-
-Integers = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

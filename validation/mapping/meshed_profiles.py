@@ -2,18 +2,16 @@
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from validation.mapping.nodal_shares import TwoRings
 from validation.mapping.profiles import EXPONENTS, TIE, ClosestProfile, nearest_exponents
-
-Array = NDArray[np.float64]
 
 STRIDE = 1.1  # by which a bracket of γ grows from its start, then faster
 LOGARITHM_OF_ZERO = -1e300  # stands for y = 0: any power of it vanishes
 
 
-def closest_meshed_profile(velocities: Array, y: Array, rings: TwoRings) -> ClosestProfile:
+def closest_meshed_profile(velocities: Floats, y: Floats, rings: TwoRings) -> ClosestProfile:
     """Fit u s(y_a; γ), interpolated as the velocity is, to each profile by least squares over its points.
 
     Parameters
@@ -38,21 +36,21 @@ def closest_meshed_profile(velocities: Array, y: Array, rings: TwoRings) -> Clos
     return ClosestProfile(velocity, exponent, error)
 
 
-def meshed_shapes(rings: TwoRings, exponents: Array) -> Array:
+def meshed_shapes(rings: TwoRings, exponents: Floats) -> Floats:
     """1 − y^γ interpolated by the mesh, (n, m, n_y), for exponents (n, m)."""
     gamma = exponents[..., None]
     inner, outer, weight = (part[:, None, :] for part in rings)
     return np.asarray(1.0 - (1.0 - weight) * inner**gamma - weight * outer**gamma)
 
 
-def _logarithm(y: Array) -> Array:
+def _logarithm(y: Floats) -> Floats:
     found = np.full(y.shape, LOGARITHM_OF_ZERO)
     np.log(y, out=found, where=y > 0)
     return found
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _slope(v: Array, inner: Array, outer: Array, weight: Array, gamma: float) -> float:
+def _slope(v: Floats, inner: Floats, outer: Floats, weight: Floats, gamma: float) -> float:
     """d(|v·f|/‖f‖)/dγ for the interpolated f = 1 − y^γ, up to a positive factor."""
     vf, vd, ff, fd = 0.0, 0.0, 0.0, 0.0
     for k in range(v.size):
@@ -80,7 +78,7 @@ def _shape(inner: float, outer: float, weight: float, gamma: float) -> float:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _project(
-    v: Array, inner: Array, outer: Array, weight: Array, gamma: float, shape: Array
+    v: Floats, inner: Floats, outer: Floats, weight: Floats, gamma: float, shape: Floats
 ) -> tuple[float, float]:
     """Fill the interpolated ``shape`` f; return v·f and f·f."""
     vf, ff = 0.0, 0.0
@@ -93,7 +91,7 @@ def _project(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _search(
-    v: Array, inner: Array, outer: Array, weight: Array, start: float, least: float, largest: float
+    v: Floats, inner: Floats, outer: Floats, weight: Floats, start: float, least: float, largest: float
 ) -> float:
     """γ where the projection is largest, uphill from ``start``: a growing bracket, then Illinois secants."""
     a = np.log(start)
@@ -130,7 +128,9 @@ def _search(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _fit(v: Array, rings: TwoRings, start: Array, velocity: Array, exponent: Array, error: Array) -> None:
+def _fit(
+    v: Floats, rings: TwoRings, start: Floats, velocity: Floats, exponent: Floats, error: Floats
+) -> None:
     """Fill u, γ and the relative error of each profile."""
     shape, plug = np.empty(v.shape[1]), np.empty(v.shape[1])
     for n in range(v.shape[0]):

@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from validation.errors import UnusableReferenceError
 from validation.mapping.elements import HEXAHEDRON, PYRAMID, TETRAHEDRON, WEDGE
 from validation.mapping.mesh import Block
-
-Floats = NDArray[np.float64]
 
 ON_PLANE = 1e-6  # share of the mesh's extent within which a node lies on the plane
 _TURNED = {  # node order of the image, so that its faces turn outwards again
@@ -35,8 +33,8 @@ class Mirror:
     """
 
     normal: Floats
-    copied: NDArray[np.int64]
-    image: NDArray[np.int64]
+    copied: Integers
+    image: Integers
 
     def vectors(self, values: Floats) -> Floats:
         """Vectors, or points, of the whole model's nodes, (n + m, 3)."""
@@ -53,7 +51,7 @@ class Mirror:
         return [*blocks, *images]
 
 
-def mirror(coordinates: Floats, used: NDArray[np.int64], normal: Floats) -> Mirror:
+def mirror(coordinates: Floats, used: Integers, normal: Floats) -> Mirror:
     """Mirror of a half model.
 
     Parameters

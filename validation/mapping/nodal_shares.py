@@ -11,13 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from validation.mapping.mesh import LumenMesh
 from validation.mapping.rays import Rays
 from validation.mapping.wall_radius import radius_at
-
-Floats = NDArray[np.float64]
 
 RINGS = "node_rings"  # field of a reference: inner, outer and weight at the tabulated cells
 COINCIDENT = 1e-12  # variance of r/R below which the nodes stand on one ring
@@ -34,9 +32,7 @@ class TwoRings(NamedTuple):
     weight: Floats
 
 
-def nodal_shares(
-    points: Floats, mesh: LumenMesh, radius: Floats, rays: Rays, faces: NDArray[np.int64]
-) -> Floats:
+def nodal_shares(points: Floats, mesh: LumenMesh, radius: Floats, rays: Rays, faces: Integers) -> Floats:
     """r/R of the lumen's nodes, (n_nodes,); NaN for others.
 
     R is the wall's at the node's own x and φ; of a node that no face of the interface is abreast of, as on

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pyvista as pv
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from validation.mapping.elements import HEXAHEDRON, NODES, PYRAMID, TETRAHEDRON, WEDGE
 from validation.mapping.interpolation import Topology
 
@@ -18,9 +18,7 @@ def lumen_grid(mesh: Topology) -> pv.UnstructuredGrid:
     return pv.UnstructuredGrid(np.concatenate(cells), types, np.zeros((int(mesh.nodes.max()) + 1, 3)))
 
 
-def plane_flow_rate(
-    grid: pv.UnstructuredGrid, points: NDArray[np.float64], velocity: NDArray[np.float64], x: float
-) -> float:
+def plane_flow_rate(grid: pv.UnstructuredGrid, points: Floats, velocity: Floats, x: float) -> float:
     """Flow rate through the plane at x in the deformed lumen, m³/s.
 
     Parameters

@@ -6,22 +6,22 @@ also at inlet, outlet and wall.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from cases.arrays import Flags, Floats, Integers
 from validation.mapping.interpolation import Topology
 
 SHALLOW = 0.05  # least over largest singular value below which a patch cannot hold a slope
 
 
-def element_centres(mesh: Topology, coordinates: NDArray[np.float64]) -> NDArray[np.float64]:
+def element_centres(mesh: Topology, coordinates: Floats) -> Floats:
     """Mean of each element's nodes, (n_e, 3), m."""
     present = mesh.nodes >= 0
     points = np.where(present[..., None], coordinates[mesh.nodes], 0.0)
     return np.asarray(points.sum(axis=1) / present.sum(axis=1)[:, None])
 
 
-def recovery_operator(mesh: Topology, coordinates: NDArray[np.float64]) -> csr_array:
+def recovery_operator(mesh: Topology, coordinates: Floats) -> csr_array:
     """Matrix (n_nodes, n_e) that turns element averages into nodal values; zero rows off the mesh.
 
     Parameters
@@ -51,7 +51,7 @@ def recovery_operator(mesh: Topology, coordinates: NDArray[np.float64]) -> csr_a
     return csr_array(operator + _mean_of(touches, pending))
 
 
-def _mean_of(touches: csr_array, nodes: NDArray[np.int64]) -> csr_array:
+def _mean_of(touches: csr_array, nodes: Integers) -> csr_array:
     """Plain mean of the elements at ``nodes``: meshes one element thick have no slope to recover."""
     chosen = np.zeros(touches.shape[0])
     counts = np.diff(touches.indptr)
@@ -61,10 +61,10 @@ def _mean_of(touches: csr_array, nodes: NDArray[np.int64]) -> csr_array:
 
 def _fit(
     patches: csr_array,
-    nodes: NDArray[np.int64],
-    coordinates: NDArray[np.float64],
-    centres: NDArray[np.float64],
-) -> tuple[csr_array, NDArray[np.bool_]]:
+    nodes: Integers,
+    coordinates: Floats,
+    centres: Floats,
+) -> tuple[csr_array, Flags]:
     """Least-squares weights of each node's patch, and which nodes have too shallow a patch."""
     counts = np.diff(patches.indptr)[nodes]
     shallow = np.zeros(nodes.size, dtype=bool)

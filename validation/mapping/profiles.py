@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from cases.arrays import Floats, Integers
 
 EXPONENTS = np.geomspace(0.05, 1000.0, 240)  # brackets of the search for γ; beyond lies plug flow
 COARSE = 4  # every so many of them suffice to start a search that brackets by itself
@@ -19,13 +19,13 @@ class ClosestProfile(NamedTuple):
     ``exponent`` is infinite where plug flow is closest.
     """
 
-    velocity: Array
-    exponent: Array
-    error: Array
+    velocity: Floats
+    exponent: Floats
+    error: Floats
 
 
 def closest_profile(
-    velocities: NDArray[np.floating], y: Array, weights: Array | None = None
+    velocities: NDArray[np.floating], y: Floats, weights: Floats | None = None
 ) -> ClosestProfile:
     """Fit u s(y; γ) to each profile by least squares over its points.
 
@@ -52,14 +52,14 @@ def closest_profile(
     return ClosestProfile(velocity, exponent, error)
 
 
-def nearest_exponents(velocities: Array, y: Array) -> Array:
+def nearest_exponents(velocities: Floats, y: Floats) -> Floats:
     """Exponent of a coarse grid that is nearest to each profile's closest one, (n,): where to search."""
     grid = EXPONENTS[::COARSE]
     best = _best_shapes(velocities, np.ones_like(y), y, grid)
     return np.asarray(grid[np.minimum(best, grid.size - 1)])
 
 
-def _best_shapes(v: Array, w: Array, y: Array, exponents: Array) -> NDArray[np.int64]:
+def _best_shapes(v: Floats, w: Floats, y: Floats, exponents: Floats) -> Integers:
     """Index of the exponent whose shape is closest to each profile; one beyond the last is plug flow."""
     shapes = 1.0 - y[None, :] ** exponents[:, None]
     plug = (y < 1.0).astype(float)
@@ -70,7 +70,7 @@ def _best_shapes(v: Array, w: Array, y: Array, exponents: Array) -> NDArray[np.i
     return best
 
 
-def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
+def errors_at(velocities: Floats, y: Floats, exponents: Floats) -> Floats:
     """Relative error of each profile from the closest one with given exponents.
 
     Parameters
@@ -90,7 +90,7 @@ def errors_at(velocities: Array, y: Array, exponents: Array) -> Array:
     return errors_of(velocities, 1.0 - y ** exponents[..., None])
 
 
-def errors_of(velocities: Array, shapes: Array) -> Array:
+def errors_of(velocities: Floats, shapes: Floats) -> Floats:
     """Relative error of each profile (n, n_y) from the best multiple of given shapes (n, m, n_y), (n, m).
 
     NaN for a profile that is zero everywhere.
@@ -104,7 +104,7 @@ def errors_of(velocities: Array, shapes: Array) -> Array:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _best_shape(v: Array, w: Array, bases: Array, best: NDArray[np.int64]) -> None:
+def _best_shape(v: Floats, w: Floats, bases: Floats, best: Integers) -> None:
     """Index of the unit shape (n_y, m) that each profile projects on best; the last, plug flow, wins ties.
 
     A kernel and not a matrix product: the threads of a linear algebra library wait for each other at full
@@ -126,7 +126,7 @@ def _best_shape(v: Array, w: Array, bases: Array, best: NDArray[np.int64]) -> No
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _slope(v: Array, w: Array, y: Array, logarithm: Array, gamma: float) -> float:
+def _slope(v: Floats, w: Floats, y: Floats, logarithm: Floats, gamma: float) -> float:
     """Return d(|v·f|/‖f‖)/dγ for f = 1 − y^γ, up to a positive factor."""
     vf, vd, ff, fd = 0.0, 0.0, 0.0, 0.0
     for k in range(y.size):
@@ -142,7 +142,7 @@ def _slope(v: Array, w: Array, y: Array, logarithm: Array, gamma: float) -> floa
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _maximise(v: Array, w: Array, y: Array, logarithm: Array, low: float, high: float) -> float:
+def _maximise(v: Floats, w: Floats, y: Floats, logarithm: Floats, low: float, high: float) -> float:
     """γ in [low, high] where the projection is largest: bracketed secant (Illinois) on its slope."""
     a, b = np.log(low), np.log(high)
     fa, fb = _slope(v, w, y, logarithm, low), _slope(v, w, y, logarithm, high)
@@ -169,15 +169,15 @@ def _maximise(v: Array, w: Array, y: Array, logarithm: Array, low: float, high: 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _refine(
-    v: Array,
-    w: Array,
-    y: Array,
-    logarithm: Array,
-    best: NDArray[np.int64],
-    exponents: Array,
-    velocity: Array,
-    exponent: Array,
-    error: Array,
+    v: Floats,
+    w: Floats,
+    y: Floats,
+    logarithm: Floats,
+    best: Integers,
+    exponents: Floats,
+    velocity: Floats,
+    exponent: Floats,
+    error: Floats,
 ) -> None:
     """Search γ between the grid's neighbours of the best shape; fill u, γ and the relative error."""
     last = exponents.size - 1
@@ -198,7 +198,14 @@ def _refine(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _measure(
-    v: Array, w: Array, y: Array, logarithm: Array, n: int, velocity: Array, exponent: Array, error: Array
+    v: Floats,
+    w: Floats,
+    y: Floats,
+    logarithm: Floats,
+    n: int,
+    velocity: Floats,
+    exponent: Floats,
+    error: Floats,
 ) -> None:
     """Set u = v·s/s·s and ‖v − u s‖/‖v‖ for the exponent found."""
     gamma = exponent[n]

@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from validation.errors import UnusableReferenceError
 from validation.mapping import interpolation
 from validation.mapping.interpolation import Located
@@ -14,8 +14,6 @@ from validation.mapping.nodal_shares import TwoRings, nodal_shares, two_rings
 from validation.mapping.rays import Rays
 from validation.mapping.surface import area_across_axis, flow_along_axis, flux
 from validation.mapping.wall_radius import interface_radius
-
-Floats = NDArray[np.float64]
 
 
 class MappedState(NamedTuple):
@@ -49,10 +47,10 @@ class Mapper:
     mesh: LumenMesh
     rays: Rays
     _located: Located = field(init=False)
-    _faces: NDArray[np.int64] = field(init=False)
-    _chord_faces: NDArray[np.int64] = field(init=False)
-    _rim_faces: NDArray[np.int64] = field(init=False)
-    _node_faces: NDArray[np.int64] = field(init=False)
+    _faces: Integers = field(init=False)
+    _chord_faces: Integers = field(init=False)
+    _rim_faces: Integers = field(init=False)
+    _node_faces: Integers = field(init=False)
 
     def __post_init__(self) -> None:
         n_x, n_phi, n_y = self.rays.shape
@@ -109,7 +107,7 @@ class Mapper:
             inlet_area=area_across_axis(points, mesh.inlet),
         )
 
-    def _radius(self, points: Floats, phi: Floats, guess: NDArray[np.int64], chord: bool) -> Floats:
+    def _radius(self, points: Floats, phi: Floats, guess: Integers, chord: bool) -> Floats:
         rays = self.rays
         radius = interface_radius(points, self.mesh.interface, rays.x, phi, chord, guess)
         missed = np.argwhere(radius <= 0)

@@ -2,16 +2,14 @@
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from cases.arrays import Floats, Integers
 
 _GAUSS = 1.0 / np.sqrt(3.0)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def flux(points: Array, faces: Integers, vectors: Array) -> float:
+def flux(points: Floats, faces: Integers, vectors: Floats) -> float:
     """∫ v · n dS over faces, n the face's own normal.
 
     Exact for bilinear faces and bilinear vectors. Triangles repeat their last node.
@@ -48,22 +46,22 @@ def flux(points: Array, faces: Integers, vectors: Array) -> float:
     return total
 
 
-def flow_along_axis(points: Array, faces: Integers, velocity: Array) -> float:
+def flow_along_axis(points: Floats, faces: Integers, velocity: Floats) -> float:
     """Flow rate along +x through faces across the axis, whichever way they turn, m³/s."""
     return float(flux(points, faces, velocity) * np.sign(_axial_area(points, faces)))
 
 
-def area_across_axis(points: Array, faces: Integers) -> float:
+def area_across_axis(points: Floats, faces: Integers) -> float:
     """Area of faces projected on the plane across the axis, m²."""
     return abs(_axial_area(points, faces))
 
 
-def enclosed_volume(points: Array, faces: Integers) -> float:
+def enclosed_volume(points: Floats, faces: Integers) -> float:
     """Volume inside a closed surface whose normals point outwards, ⅓∮ x · n dS, m³."""
     return float(flux(points, faces, points) / 3.0)
 
 
-def _axial_area(points: Array, faces: Integers) -> float:
+def _axial_area(points: Floats, faces: Integers) -> float:
     along = np.zeros_like(points)
     along[:, 0] = 1.0
     return float(flux(points, faces, along))

@@ -10,11 +10,8 @@ quadrilateral, in the unit triangle for a triangle.
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Integers = NDArray[np.int64]
-Flags = NDArray[np.bool_]
+from cases.arrays import Flags, Floats, Integers
 
 INSIDE = 1e-7  # natural coordinates may exceed a face by this
 CONVERGED = 1e-8  # a Newton step this small leaves an error of about its square
@@ -24,8 +21,8 @@ _TRIANGLE = np.array([[1, 0, 0, 0], [-1, 1, 0, 0], [-1, 0, 1, 0], [0, 0, 0, 0]],
 
 
 def interface_radius(
-    points: Array, faces: Integers, x: Array, phi: Array, chord: bool, guess: Integers
-) -> Array:
+    points: Floats, faces: Integers, x: Floats, phi: Floats, chord: bool, guess: Integers
+) -> Floats:
     """Radius of the interface on every ray, (n_x, n_phi), m; −1 where the ray meets no face.
 
     Parameters
@@ -48,14 +45,14 @@ def interface_radius(
     return radius
 
 
-def radius_at(points: Array, faces: Integers, x: Array, phi: Array, guess: Integers) -> Array:
+def radius_at(points: Floats, faces: Integers, x: Floats, phi: Floats, guess: Integers) -> Floats:
     """Wall radius at pairs (x, φ), (n,), m; −1 where no face is met. Parameters as above, each (n,)."""
     radius = np.empty(guess.shape)
     _at_pairs(*_maps(points, faces, False), x, phi, guess, radius)
     return radius
 
 
-def _maps(points: Array, faces: Integers, chord: bool) -> tuple[Array, Flags]:
+def _maps(points: Floats, faces: Integers, chord: bool) -> tuple[Floats, Flags]:
     """Polynomials of all faces, (n_f, 4, 3), in x, y, z or x, φ, r; and which are triangles."""
     corners = points[faces]
     if not chord:
@@ -67,7 +64,7 @@ def _maps(points: Array, faces: Integers, chord: bool) -> tuple[Array, Flags]:
     return np.asarray(matrices @ corners), triangle
 
 
-def _wrapped(angle: Array) -> Array:
+def _wrapped(angle: Floats) -> Floats:
     """Return angles moved into [−π, π)."""
     return (angle + np.pi) % (2.0 * np.pi) - np.pi
 
@@ -110,7 +107,7 @@ def _root(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _on_face(
-    c: Array, triangle: bool, x: float, phi: float, cosine: float, sine: float, chord: bool
+    c: Floats, triangle: bool, x: float, phi: float, cosine: float, sine: float, chord: bool
 ) -> float:
     """Radius at which the ray at (x, φ) meets one face, or −1; c (4, 3): x, y, z or x, φ, r."""
     a = (c[0, 0] - x, c[1, 0], c[2, 0], c[3, 0])
@@ -135,7 +132,7 @@ def _on_face(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _search(
-    maps: Array,
+    maps: Floats,
     triangle: Flags,
     x: float,
     phi: float,
@@ -156,7 +153,7 @@ def _search(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _on_rays(
-    maps: Array, triangle: Flags, x: Array, phi: Array, chord: bool, guess: Integers, radius: Array
+    maps: Floats, triangle: Flags, x: Floats, phi: Floats, chord: bool, guess: Integers, radius: Floats
 ) -> None:
     """Fill ``radius``: each ray tries its guess, then its neighbour's face, then all faces."""
     cosine, sine = np.cos(phi), np.sin(phi)
@@ -170,7 +167,7 @@ def _on_rays(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _at_pairs(maps: Array, triangle: Flags, x: Array, phi: Array, guess: Integers, radius: Array) -> None:
+def _at_pairs(maps: Floats, triangle: Flags, x: Floats, phi: Floats, guess: Integers, radius: Floats) -> None:
     """Fill ``radius`` at pairs (x, φ)."""
     previous = guess[0]
     for n in range(x.size):

@@ -5,9 +5,8 @@ block bootstrap, Politis & Romano 1992, "A circular block-resampling procedure f
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from cases.arrays import Floats
 
 SEED = 0  # of the random numbers: the same comparison gives the same interval
 RESAMPLES = 2000

@@ -5,14 +5,12 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from validation.mapping.meshed_profiles import meshed_shapes
 from validation.mapping.nodal_shares import RINGS, TwoRings
 from validation.mapping.profiles import errors_at, errors_of
 from validation.metrics.rows import Models, Row
-
-Floats = NDArray[np.float64]
 
 EXPONENTS = np.geomspace(0.5, 50.0, 121)
 CURVE = "reference_profile_error_curve"

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.fields import FIELDS
 from validation.metrics.cycle_quantities import CYCLE_QUANTITIES, phase_lag
 from validation.metrics.statistics import DIFFERENCES, EXTREMES, POOLED, extreme_error, relative_error
@@ -21,8 +21,6 @@ CELL_QUANTITIES = ("pressure", "radius", "mean_velocity", "sector_flow_rate", "p
 SHARE, QUOTIENT = "sector_flow_share", ("sector_flow_rate", "section_flow_rate")  # in no dataset itself
 SECTION_QUANTITIES = ("section_flow_rate", "section_pressure")
 DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,8 @@ Relative errors are (2D − 3D)/3D, instant by instant, as Boileau et al. (2015)
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from cases.arrays import Floats
 
 SMALLEST = 1e-9  # share of the largest 3D value below which an error relative to it means nothing
 

@@ -8,8 +8,8 @@ model's time. Nothing else is shifted.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from validation.errors import UnusableReferenceError
 
 SLACK = 1e-3  # share of a cycle by which a state may miss the cycle's ends
@@ -35,13 +35,13 @@ class Alignment:
         Share of the cycle between the first and the last state.
     """
 
-    states: NDArray[np.int64]
-    cycle_times: NDArray[np.float64]
-    rom_times: NDArray[np.float64]
+    states: Integers
+    cycle_times: Floats
+    rom_times: Floats
     cycles_later: int
     coverage: float
 
-    def at(self, which: NDArray[np.int64]) -> "Alignment":
+    def at(self, which: Integers) -> "Alignment":
         """Return the alignment of some of its states."""
         return replace(
             self,
@@ -51,7 +51,7 @@ class Alignment:
         )
 
 
-def align(times: NDArray[np.float64], offset: float, period: float, cycles: int) -> Alignment:
+def align(times: Floats, offset: float, period: float, cycles: int) -> Alignment:
     """Choose the states of the last cycle that the reference covers.
 
     That is the last whole cycle, if there is one, else the cycle covered best.
@@ -91,7 +91,7 @@ def align(times: NDArray[np.float64], offset: float, period: float, cycles: int)
     )
 
 
-def _best_cycle(phase: NDArray[np.float64]) -> tuple[int, NDArray[np.int64]]:
+def _best_cycle(phase: Floats) -> tuple[int, Integers]:
     """Return the number of the last whole cycle, else of the one covered best, and its states in order."""
     best, covered, chosen = 0, -1.0, np.empty(0, dtype=np.int64)
     if not phase.size:
@@ -107,7 +107,7 @@ def _best_cycle(phase: NDArray[np.float64]) -> tuple[int, NDArray[np.int64]]:
     return best, chosen
 
 
-def _states_of(within: NDArray[np.float64]) -> NDArray[np.int64]:
+def _states_of(within: Floats) -> Integers:
     """States of one cycle in order of time, each instant once."""
     inside = np.flatnonzero((within > -SLACK) & (within < 1 + SLACK))
     order = inside[np.argsort(within[inside], kind="stable")]

@@ -3,14 +3,12 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.calcification import FULL_TURN, LocalCalcification, Part
 from cases.sections.case import Case
 from solver.geometry.calcification import distance_around, distance_to_interval
 from validation.mapping.mesh import Block
-
-Floats = NDArray[np.float64]
 
 ALONG = 0.02  # share of the artery's length by which the ends of both may differ
 AROUND = np.radians(5.0)  # angle by which the edges of both may differ

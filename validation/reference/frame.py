@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.reference import Vector, components
 
 
@@ -22,24 +22,24 @@ class Frame:
         The reference's units of length and velocity, m and m/s.
     """
 
-    origin: NDArray[np.float64]
-    rotation: NDArray[np.float64]
+    origin: Floats
+    rotation: Floats
     length: float = 1.0
     velocity: float = 1.0
 
-    def points(self, coordinates: NDArray[np.float64]) -> NDArray[np.float64]:
+    def points(self, coordinates: Floats) -> Floats:
         """Points (..., 3) of the reference in the artery's frame, m."""
         return np.asarray((self.length * coordinates - self.origin) @ self.rotation.T)
 
-    def displacements(self, parts: NDArray[np.float64]) -> NDArray[np.float64]:
+    def displacements(self, parts: Floats) -> Floats:
         """Displacements (..., 3) of the reference in the artery's frame, m."""
         return self.length * self.directions(parts)
 
-    def velocities(self, parts: NDArray[np.float64]) -> NDArray[np.float64]:
+    def velocities(self, parts: Floats) -> Floats:
         """Velocities (..., 3) of the reference in the artery's frame, m/s."""
         return self.velocity * self.directions(parts)
 
-    def directions(self, parts: NDArray[np.float64]) -> NDArray[np.float64]:
+    def directions(self, parts: Floats) -> Floats:
         """Components (..., 3) in the artery's frame."""
         return np.asarray(parts @ self.rotation.T)
 

@@ -24,8 +24,6 @@ from validation.reference.alignment import Alignment
 from validation.reference.kind import Progress, Reference
 from validation.runs.provenance import shown_path
 
-Floats = NDArray[np.float64]
-
 PRINTED = 2e-3  # s: printed times are rounded, and one instant is not always printed alike
 BETWEEN = 40  # instants besides those of the tables
 CM3 = 1e-6  # m³ in a cm³

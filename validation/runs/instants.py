@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from cases.sections.case import Case
 from solver.case.model import inlet_signal
 from solver.model.waveform import local_minima
@@ -12,8 +12,6 @@ from validation.errors import ValidationError
 
 TOLERANCE = 1e-4  # share of a cycle by which two states of one instant may differ
 FEWEST = 3
-
-Floats = NDArray[np.float64]
 
 
 def wanted_instants(case: Case) -> dict[str, float]:
@@ -56,7 +54,7 @@ def nearest_states(wanted: dict[str, float], times: Floats) -> dict[str, int]:
     return {name: state for name, state in near.items() if first[state] == name}
 
 
-def common_states(times: Sequence[Floats], period: float) -> list[NDArray[np.int64]]:
+def common_states(times: Sequence[Floats], period: float) -> list[Integers]:
     """States of each reference at the instants that all of them have.
 
     Raises

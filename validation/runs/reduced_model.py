@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import Case, MembraneWall
 from solver.case.periodicity import cycle_change
 from solver.case.run import run_case
@@ -18,8 +18,6 @@ from validation.mapping.derived import as_dataset, dominance
 from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
 from validation.reference.kind import Progress
-
-Floats = NDArray[np.float64]
 
 COMPARED = (
     "pressure",

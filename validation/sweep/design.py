@@ -5,15 +5,14 @@ from types import MappingProxyType
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import model_validator
 from scipy.stats import qmc
 
+from cases.arrays import Floats
 from cases.sections.base import Section
 from cases.values.kinds import one_of, refused, whole_number
 from validation.sweep.parameters import Parameter
 
-Floats = NDArray[np.float64]
 Kind = Literal["grid", "list", "latin_hypercube", "sobol", "saltelli"]
 MOST_SAMPLES = 1_000_000
 MOST_SEED = 2**32 - 1

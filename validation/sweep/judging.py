@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.fields import FIELDS
 from cases.sections.case import Case
 from cases.sections.compare import Band, ComparedQuantity
@@ -24,7 +24,6 @@ from validation.runs.cache import Cache
 from validation.runs.cached import cached_reference
 
 Against = Literal["none", "coupled", "reference"]
-Floats = NDArray[np.float64]
 
 STATES = 100  # instants of the last cycle in which extremes are looked for
 ALWAYS: tuple[ComparedQuantity, ...] = (

@@ -7,15 +7,14 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.fields import FIELDS, Field
 from cases.sections.case import Case, LocalCalcification, NoCalcification
 from cases.sections.compare import Band
 from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
 from validation.sweep.judging import Against, judged_bands
 
-Floats = NDArray[np.float64]
 Measure = Callable[[Case, xr.Dataset], float]
 
 CYCLE_CHANGE = "cycle_change"  # output, and attribute of a last cycle that tells it

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
+from cases.arrays import Floats
 from cases.errors import CaseError, Problem, QuantityError, RefusedValueError
 from cases.reading.numeric_keys import NumericKey
 from cases.reading.yaml_nodes import Node
@@ -12,7 +13,7 @@ from cases.values.units import DIMENSION_OF_UNIT, parse_quantity, parse_ratio
 from cases.values.wording import but_allowed, choices, nearest, not_one_of, shown, unknown_key
 from validation.sweep.display import display_of
 from validation.sweep.labels import label_of
-from validation.sweep.parameters import MOST_VALUES, NEEDED, OPTIONAL, SPREAD, Floats, Parameter
+from validation.sweep.parameters import MOST_VALUES, NEEDED, OPTIONAL, SPREAD, Parameter
 
 FORMS = "a list of values, {start, stop, count} or {distribution: …}"
 RANGE_KEYS = ("start", "stop", "count", "spacing", "label")

@@ -7,13 +7,12 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import stats
 
+from cases.arrays import Floats
 from cases.reading.numeric_keys import NumericKey
 from validation.sweep.display import Display
 
-Floats = NDArray[np.float64]
 MOST_VALUES = 100_000
 
 # what each distribution needs and what it may have besides; a spread is a difference of two values

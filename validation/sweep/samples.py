@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.errors import CaseFileError
 from cases.reading.numeric_keys import NumericKey
 from cases.reading.template import case_with
@@ -15,7 +15,6 @@ from validation.sweep.design import points
 from validation.sweep.spans import CENTRE, EXTENT, ends_of
 from validation.sweep.study import Study
 
-Floats = NDArray[np.float64]
 Keys = tuple[str | int, ...]
 FIRST_CHECKED = 64
 

@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from validation.sweep.design import unit_cube
 from validation.sweep.folder import all_records
 from validation.sweep.study import Study
@@ -14,8 +14,6 @@ from validation.sweep.study import Study
 CONFIDENCE = 0.95
 FEWEST_GROUPS = 8  # base samples without a failure, for intervals that mean something
 STEADY = 1e-12  # relative standard deviation of an output that does not vary
-
-Floats = NDArray[np.float64]
 
 
 def sensitivity(study: Study, folder: Path) -> list[dict[str, Any]] | None:

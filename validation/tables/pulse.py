@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.marching.godunov import march
 from solver.marching.godunov_setup import reference_state
 from validation.tables.artery import HEALTHY, LENGTH, RADIUS, artery
@@ -30,7 +30,7 @@ ORDERS = {"upwind": (0.9, 1.1), "lax_wendroff": (1.9, 2.1), "van_leer": (1.8, 2.
 OSCILLATING, MONOTONE = 1.4, 1.02  # least and largest total variation over the exact one
 
 
-def block(times: NDArray[np.float64]) -> NDArray[np.float64]:
+def block(times: Floats) -> Floats:
     """Inlet pressure, Pa (3.1.1)."""
     return np.where(times < DURATION * (1 - 1e-12), PRESSURE, 0.0)
 

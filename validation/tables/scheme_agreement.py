@@ -7,8 +7,8 @@ table 3.3. Both start from the implicit scheme's steady state and are compared i
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.geometry.calcification import Patch
 from solver.marching.columns import columns_of
 from solver.marching.godunov import march
@@ -32,8 +32,6 @@ from validation.tables.artery import (
     thesis_waveform,
 )
 from validation.tables.experiment import Entry, Experiment, Result, Results, Row, numbers
-
-Floats = NDArray[np.float64]
 
 CELLS, CONVERGED = 120, 480  # n_x of the implicit and of the explicit scheme
 STEP = 1e-3  # s, of the implicit scheme

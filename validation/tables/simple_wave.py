@@ -8,13 +8,11 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from solver.marching.godunov import march
 from solver.marching.godunov_setup import State, held
 from validation.tables.artery import DENSITY, HEALTHY, LENGTH, RADIUS, artery
-
-Floats = NDArray[np.float64]
 
 PLUG = 1e9  # γ of a flat profile: α = 1 to nine digits
 PEAK, CENTRE, WIDTH = 1e3, 4.5e-3, 0.9e-3  # Pa, m, m: a Gaussian pulse

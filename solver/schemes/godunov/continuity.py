@@ -8,14 +8,8 @@ import math
 
 from numba import njit
 
-from solver.schemes.godunov.layout import (
-    AVERAGE,
-    AVERAGE_AXIS_RATIO,
-    MAXIMUM,
-    PARABOLIC,
-    REST_VELOCITY,
-    Array,
-)
+from cases.arrays import Floats
+from solver.schemes.godunov.layout import AVERAGE, AVERAGE_AXIS_RATIO, MAXIMUM, PARABOLIC, REST_VELOCITY
 
 GOLDEN = 0.3819660112501051  # (3 − √5)/2
 PRECISION = 1e-12  # of D, relative to its bracket
@@ -23,7 +17,7 @@ MOST_ITERATIONS = 100
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def average(u: Array) -> float:
+def average(u: Floats) -> float:
     """D = (γ_avg + 2)/γ_avg · mean_φ(u), γ_avg = 2, m/s (2.2.56); four partial sums run side by side."""
     quarter = u.size // 4
     a = b = c = d = 0.0
@@ -38,7 +32,7 @@ def average(u: Array) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def maximum(u: Array, gamma: Array) -> float:
+def maximum(u: Floats, gamma: Floats) -> float:
     """D = max_φ (γ+2)/γ u, m/s (2.2.57); in backward flow the largest magnitude."""
     largest = 0.0
     for j in range(u.size):
@@ -49,7 +43,7 @@ def maximum(u: Array, gamma: Array) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def profile_distance(D: float, u: Array, gamma: Array) -> float:
+def profile_distance(D: float, u: Floats, gamma: Floats) -> float:
     """Σ_j ‖v^c_j − v_j‖ in L²(0, 1), m/s: corrected profiles D(1 − y^g), g = 2u/(D − u), from the present.
 
     By ∫₀¹ (1 − y^a)(1 − y^b) dy = 1 − 1/(a+1) − 1/(b+1) + 1/(a+b+1).
@@ -66,7 +60,7 @@ def profile_distance(D: float, u: Array, gamma: Array) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def least_squares(u: Array, gamma: Array) -> float:
+def least_squares(u: Floats, gamma: Floats) -> float:
     """D that minimises :func:`profile_distance`, m/s.
 
     Each row's distance falls up to its own axis velocity (γ+2)/γ u and rises beyond it, so the minimiser
@@ -101,7 +95,7 @@ def least_squares(u: Array, gamma: Array) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def golden_section(begin: float, end: float, sign: float, u: Array, gamma: Array) -> float:
+def golden_section(begin: float, end: float, sign: float, u: Floats, gamma: Floats) -> float:
     """Minimiser of :func:`profile_distance` at ``sign`` times a place between ``begin`` and ``end``."""
     width = PRECISION * end
     left, right = begin + GOLDEN * (end - begin), end - GOLDEN * (end - begin)
@@ -121,7 +115,7 @@ def golden_section(begin: float, end: float, sign: float, u: Array, gamma: Array
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def close_section_profiles(u: Array, gamma: Array, closure: int) -> int:
+def close_section_profiles(u: Floats, gamma: Floats, closure: int) -> int:
     """Make one cross-section continuous on the axis: overwrite γ by 2u/(D − u).
 
     A section at rest keeps the parabola.

@@ -4,7 +4,8 @@ import math
 
 from numba import njit
 
-from solver.schemes.godunov.layout import Array, Fields, Parameters
+from cases.arrays import Floats
+from solver.schemes.godunov.layout import Fields, Parameters
 
 SERIES_LIMIT = 0.05  # below it the series of e^z up to z⁸ is exact to round-off
 
@@ -49,7 +50,7 @@ def growth(z: float) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def exchange(fields: Fields, parameters: Parameters, rate: Array, first: int, last: int) -> None:
+def exchange(fields: Fields, parameters: Parameters, rate: Floats, first: int, last: int) -> None:
     """Multiply Q by e^{hΔt} at the flat places ``first`` to ``last``; ``rate`` is scratch for hΔt."""
     n = last - first
     A_below, A = fields.area[first - 1 : last - 1], fields.area[first:last]

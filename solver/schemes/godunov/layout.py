@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from cases.arrays import Floats
 
 UPWIND, LAX_WENDROFF, VAN_LEER, SUPERBEE, MINMOD, MONOTONIZED_CENTRAL = range(6)
 FIXED, AVERAGE, MAXIMUM, LEAST_SQUARES = range(4)
@@ -65,42 +64,42 @@ class Fields(NamedTuple):
     ``reservoir`` (1,) is the pressure P_c of a Windkessel's capacitor, Pa.
     """
 
-    area: Array
-    flow: Array
-    exponent: Array
-    root: Array
-    inverse_root: Array
-    stiffness: Array
-    stiffness_slope: Array
-    fastest: Array
-    reservoir: Array
+    area: Floats
+    flow: Floats
+    exponent: Floats
+    root: Floats
+    inverse_root: Floats
+    stiffness: Floats
+    stiffness_slope: Floats
+    fastest: Floats
+    reservoir: Floats
 
 
 class Ramp(NamedTuple):
     """Two walls between which β moves by a load curve: β = first + load·(last − first)."""
 
-    first: Array
-    last: Array
-    first_slope: Array
-    last_slope: Array
+    first: Floats
+    last: Floats
+    first_slope: Floats
+    last_slope: Floats
 
 
 class Workspace(NamedTuple):
     """Scratch of a step, flat arrays of columns × stride; what the stopping criteria compare; what passed."""
 
-    slow_speed: Array
-    fast_speed: Array
-    slow_strength: Array
-    fast_strength: Array
-    to_left_area: Array
-    to_left_flow: Array
-    to_right_area: Array
-    to_right_flow: Array
-    exponent_slope: Array
-    velocity: Array
-    area_before: Array
-    flow_before: Array
-    passed: Array  # (2,): sums of the section's flow rate on inlet and outlet after each step, m³/s
+    slow_speed: Floats
+    fast_speed: Floats
+    slow_strength: Floats
+    fast_strength: Floats
+    to_left_area: Floats
+    to_left_flow: Floats
+    to_right_area: Floats
+    to_right_flow: Floats
+    exponent_slope: Floats
+    velocity: Floats
+    area_before: Floats
+    flow_before: Floats
+    passed: Floats  # (2,): sums of the section's flow rate on inlet and outlet after each step, m³/s
 
 
 def stride(n_phi: int) -> int:
@@ -115,7 +114,7 @@ def workspace(columns: int, n_phi: int) -> Workspace:
     return Workspace(**(scratch | {"passed": np.zeros(2)}))
 
 
-def flattened(values: Array) -> Array:
+def flattened(values: Floats) -> Floats:
     """Lay a field (columns, n_phi) out flat, ghosts filled."""
     wide = np.asarray(values, dtype=float)
     if wide.shape[1] > 1:
@@ -123,14 +122,14 @@ def flattened(values: Array) -> Array:
     return np.ascontiguousarray(wide).ravel()
 
 
-def unflattened(flat: Array, columns: int, n_phi: int) -> Array:
+def unflattened(flat: Floats, columns: int, n_phi: int) -> Floats:
     """Inverse of :func:`flattened`: a copy of the field, (columns, n_phi), without ghosts."""
     wide = flat.reshape(columns, stride(n_phi))
     return np.array(wide[:, 1:-1] if n_phi > 1 else wide)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def fill_ghosts(values: Array, columns: int, n_phi: int) -> None:
+def fill_ghosts(values: Floats, columns: int, n_phi: int) -> None:
     """Copy the last row before the first and the first behind the last, in every column."""
     width = n_phi + 2
     for i in range(columns):

@@ -11,6 +11,7 @@ Stable while the Courant number max|λ|Δt/Δx is at most 1. All arrays are floa
 
 from numba import njit
 
+from cases.arrays import Floats
 from solver.schemes.godunov.continuity import close_section_profiles
 from solver.schemes.godunov.ends import advance_inlet, advance_outlet
 from solver.schemes.godunov.exchange import exchange
@@ -20,7 +21,6 @@ from solver.schemes.godunov.layout import (
     OK,
     STEADY,
     WALL_COLLAPSE,
-    Array,
     Fields,
     Parameters,
     Ramp,
@@ -106,9 +106,9 @@ def advance(
     parameters: Parameters,
     ramp: Ramp,
     stopping: Stopping,
-    inlets: Array,
-    offsets: Array,
-    loads: Array,
+    inlets: Floats,
+    offsets: Floats,
+    loads: Floats,
 ) -> tuple[int, int, int, int]:
     """One step per entry of ``inlets``, until one fails or the flow is steady.
 

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from solver.schemes.layout import REST_VELOCITY, Array
+from cases.arrays import Floats
+from solver.schemes.layout import REST_VELOCITY
 
 
 class Balance(NamedTuple):
@@ -36,7 +37,7 @@ class Balance(NamedTuple):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _end_power(area: Array, flow: Array, pressure: Array, density: float) -> float:
+def _end_power(area: Floats, flow: Floats, pressure: Floats, density: float) -> float:
     """∑(P + ½ρu²)Q of one column."""
     total = 0.0
     for j in range(flow.size):
@@ -46,7 +47,7 @@ def _end_power(area: Array, flow: Array, pressure: Array, density: float) -> flo
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _excess(area: Array, flow: Array, exponent: Array, result: Array) -> None:
+def _excess(area: Floats, flow: Floats, exponent: Floats, result: Floats) -> None:
     """(α−1)uQ with α − 1 = 1/(γ+1)."""
     for j in range(flow.size):
         result[j] = flow[j] * flow[j] / (area[j] * (exponent[j] + 1.0))
@@ -54,7 +55,7 @@ def _excess(area: Array, flow: Array, exponent: Array, result: Array) -> None:
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 def _section(
-    area: Array, flow: Array, exponent: Array, nu: float, dphi: float, gap: Array, wide: Array
+    area: Floats, flow: Floats, exponent: Floats, nu: float, dphi: float, gap: Floats, wide: Floats
 ) -> tuple[float, float]:
     """∑ uQ and −∑ SuQ of one section; leaves (γ+2)/γ u in ``gap``; ``wide`` (2, n_phi + 2) is scratch."""
     n = flow.size
@@ -83,7 +84,7 @@ def _section(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _gap_of(axis: Array) -> float:
+def _gap_of(axis: Floats) -> float:
     """Largest distance from the mean over the mean; 0 at rest."""
     mean = float(np.mean(axis))
     if abs(mean) < REST_VELOCITY:
@@ -94,7 +95,7 @@ def _gap_of(axis: Array) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _largest(values: Array) -> float:
+def _largest(values: Floats) -> float:
     largest = values[0]
     for j in range(1, values.size):
         largest = max(largest, values[j])
@@ -103,7 +104,7 @@ def _largest(values: Array) -> float:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _speeds(
-    area: Array, flow: Array, exponent: Array, slope: Array, density: float, wave: Array, stream: Array
+    area: Floats, flow: Floats, exponent: Floats, slope: Floats, density: float, wave: Floats, stream: Floats
 ) -> None:
     """Largest |λ±| and |u| of each row."""
     for j in range(flow.size):
@@ -116,7 +117,7 @@ def _speeds(
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 def _shape_power(
-    area: Array, flow: Array, excess: tuple[Array, Array, Array], before: float, after: float
+    area: Floats, flow: Floats, excess: tuple[Floats, Floats, Floats], before: float, after: float
 ) -> float:
     """∑ u × difference of (α−1)uQ over the cell, from it and its neighbours' weights."""
     left, here, right = excess
@@ -128,7 +129,7 @@ def _shape_power(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def closed_exponents(area: Array, flow: Array, exponent: Array) -> None:
+def closed_exponents(area: Floats, flow: Floats, exponent: Floats) -> None:
     """γ = 2u/(D − u), D = 2 mean_φ(u), of columns; 2 at rest, NaN where none is admissible."""
     u = np.empty(area.shape[1])
     for i in range(area.shape[0]):
@@ -150,7 +151,7 @@ def closed_exponents(area: Array, flow: Array, exponent: Array) -> None:
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
 def linear_wall(
-    area: Array, stiffness: Array, radius: float, reference_pressure: float, slope: Array
+    area: Floats, stiffness: Floats, radius: float, reference_pressure: float, slope: Floats
 ) -> float:
     """∑ ∫P dA of P = P₀ + β(R − R₀)/R₀² from R₀² to A, J/m per ½dφ; leaves dA/dP in ``slope``."""
     rest, total = radius * radius, 0.0
@@ -167,11 +168,11 @@ def linear_wall(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def balance(
-    area: Array,
-    flow: Array,
-    exponent: Array,
-    pressure: Array,
-    area_slope: Array,
+    area: Floats,
+    flow: Floats,
+    exponent: Floats,
+    pressure: Floats,
+    area_slope: Floats,
     density: float,
     viscosity: float,
     dx: float,

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cases.arrays import Floats
 from solver.schemes.layout import (
     FLOW_INLET,
     NON_REFLECTING,
@@ -10,7 +11,6 @@ from solver.schemes.layout import (
     ROW_RESISTANCE,
     VELOCITY_INLET,
     WINDKESSEL,
-    Array,
     Fields,
     Parameters,
     Stepping,
@@ -24,7 +24,7 @@ INLET, OUTLET = 0, 1
 
 
 @summing_kernel
-def section_flow(p: Parameters, flow: Array) -> float:
+def section_flow(p: Parameters, flow: Floats) -> float:
     """Flow rate of a section ½∮Q dφ from its rows, m³/s."""
     total = 0.0
     for j in range(flow.size):
@@ -33,7 +33,7 @@ def section_flow(p: Parameters, flow: Array) -> float:
 
 
 @inlined_kernel
-def _end_wall(p: Parameters, ws: Workspace, end: int, pressure: Array, area: Array) -> tuple[int, int, int]:
+def _end_wall(p: Parameters, ws: Workspace, end: int, pressure: Floats, area: Floats) -> tuple[int, int, int]:
     """Apply the wall law of the cells at an end to a row of pressures; status, i, j."""
     first = 0 if end == INLET else ws.mean_area.shape[0] - 1
     rows = (1, pressure.size)
@@ -65,7 +65,7 @@ def end_areas(p: Parameters, ws: Workspace, theta: float) -> tuple[int, int, int
 
 
 @kernel
-def face_areas(mean_area: Array, end_area: Array, inlet_kind: int, mirrored: bool, area: Array) -> None:
+def face_areas(mean_area: Floats, end_area: Floats, inlet_kind: int, mirrored: bool, area: Floats) -> None:
     """Mean areas of all faces, with ghosts: half-way between cells, at the ends from the end's pressure.
 
     At a velocity or flow inlet, which has no pressure of its own, half a cell beyond the first two cells.
@@ -85,7 +85,7 @@ def face_areas(mean_area: Array, end_area: Array, inlet_kind: int, mirrored: boo
 
 
 @inlined_kernel
-def inlet_flow(p: Parameters, ws: Workspace, value: float, flow: Array) -> None:
+def inlet_flow(p: Parameters, ws: Workspace, value: float, flow: Floats) -> None:
     """Q' = vA' of a velocity inlet, or with v = q/½∮A' dφ of a flow inlet, at the iterate's area."""
     area = ws.iterate_area
     for j in range(flow.size):
@@ -200,7 +200,7 @@ def _close_last_cell(ws: Workspace, j: int, c: float, change: float) -> None:
 
 
 @kernel
-def update_reservoir(p: Parameters, fields: Fields, new_flow: Array) -> None:
+def update_reservoir(p: Parameters, fields: Fields, new_flow: Floats) -> None:
     """Pressure of the Windkessel's capacitor after the step: P_c' = P' − R₁ q'."""
     if p.outlet_kind == WINDKESSEL:
         fields.reservoir[0] = fields.outlet_pressure[0] - p.resistance * section_flow(p, new_flow)

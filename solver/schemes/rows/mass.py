@@ -7,12 +7,12 @@ The matrix is symmetric but for its first row, where Q' = vA' at a velocity inle
 
 import numpy as np
 
-from solver.schemes.layout import Array
+from cases.arrays import Floats
 from solver.schemes.vectorisation import kernel, summing_kernel
 
 
 @kernel
-def release_area(held: Array, flow: Array, c: float, area: Array) -> None:
+def release_area(held: Floats, flow: Floats, c: float, area: Floats) -> None:
     """Find A' by the mass balance from the held area and Q'; ``c`` is θΔt/Δx."""
     for i in range(held.shape[0]):
         for j in range(held.shape[1]):
@@ -20,7 +20,7 @@ def release_area(held: Array, flow: Array, c: float, area: Array) -> None:
 
 
 @kernel
-def hold_area(area: Array, flow: Array, explicit: float, held: Array) -> None:
+def hold_area(area: Floats, flow: Floats, explicit: float, held: Floats) -> None:
     """Take A less the old flows' share, what A' would be if Q' were 0; ``explicit`` is (1−θ)Δt/Δx."""
     for i in range(held.shape[0]):
         for j in range(held.shape[1]):
@@ -31,13 +31,13 @@ def hold_area(area: Array, flow: Array, explicit: float, held: Array) -> None:
 def eliminate(
     c: float,
     inlet_slopes: tuple[float, float],
-    held: Array,
-    area: Array,
-    slope: Array,
-    flow: Array,
-    conductance: Array,
-    rhs: Array,
-    inverse_pivot: Array,
+    held: Floats,
+    area: Floats,
+    slope: Floats,
+    flow: Floats,
+    conductance: Floats,
+    rhs: Floats,
+    inverse_pivot: Floats,
 ) -> None:
     """Residual of the mass balance and its forward elimination: right-hand sides and 1/pivot.
 
@@ -74,11 +74,11 @@ def eliminate(
 def substitute(
     c: float,
     inlet_slopes: tuple[float, float],
-    slope: Array,
-    inverse_pivot: Array,
-    conductance: Array,
-    correction: Array,
-    flow: Array,
+    slope: Floats,
+    inverse_pivot: Floats,
+    conductance: Floats,
+    correction: Floats,
+    flow: Floats,
 ) -> None:
     """Back substitution from the closed last cell: δP = P' − P in every cell, and G becomes Q'.
 
@@ -101,7 +101,7 @@ def substitute(
 
 
 @summing_kernel
-def accept_flow(new: Array, iterate: Array) -> tuple[float, float]:
+def accept_flow(new: Floats, iterate: Floats) -> tuple[float, float]:
     """Take Q' as the iterate; root mean squares of its change and of itself."""
     change, size = 0.0, 0.0
     for i in range(new.shape[0]):
@@ -114,7 +114,7 @@ def accept_flow(new: Array, iterate: Array) -> tuple[float, float]:
 
 
 @summing_kernel
-def accept_pressure(correction: Array, iterate: Array) -> tuple[float, float]:
+def accept_pressure(correction: Floats, iterate: Floats) -> tuple[float, float]:
     """Take P' as the iterate; root mean squares of its change and of itself."""
     change, size = 0.0, 0.0
     for i in range(iterate.shape[0]):

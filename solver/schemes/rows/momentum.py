@@ -1,11 +1,11 @@
 """Momentum on the faces between two cells (numba kernels)."""
 
-from solver.schemes.layout import Array
+from cases.arrays import Floats
 from solver.schemes.vectorisation import kernel
 
 
 @kernel
-def momentum_flux(flow: Array, area: Array, alpha: Array, flux: Array) -> None:
+def momentum_flux(flow: Floats, area: Floats, alpha: Floats, flux: Floats) -> None:
     """αQ²/A at cell centres (n_x, n_phi) from Q and α of the two faces (n_x + 1, n_phi)."""
     for i in range(flux.shape[0]):
         for j in range(flux.shape[1]):
@@ -18,13 +18,13 @@ def predict(
     theta: float,
     carry: float,
     pull: float,
-    flow: Array,
-    area: Array,
-    pressure: Array,
-    flux: Array,
-    damping: Array,
-    explicit_flow: Array,
-    conductance: Array,
+    flow: Floats,
+    area: Floats,
+    pressure: Floats,
+    flux: Floats,
+    damping: Floats,
+    explicit_flow: Floats,
+    conductance: Floats,
 ) -> None:
     """Flow G that inner faces would have at the iterate's pressure, and their conductance κ.
 

@@ -6,14 +6,15 @@ division by s(1−s)(1+s).
 The kernels index whole arrays, ``values[f, j]``: making a view of each row costs more than the work on it.
 """
 
-from solver.schemes.layout import NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY, Array
+from cases.arrays import Floats
+from solver.schemes.layout import NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY
 from solver.schemes.vectorisation import kernel, summing_kernel
 
 POISEUILLE = 2.0  # γ of a section at rest: the limit of slow equal rows
 
 
 @kernel
-def wrap(values: Array, f: int, mirrored: bool) -> None:
+def wrap(values: Floats, f: int, mirrored: bool) -> None:
     """Fill the two ghosts of a face's rows: periodic, or the mirror images of the first and the last row."""
     last = values.shape[1] - 1
     values[f, 0] = values[f, 1] if mirrored else values[f, last - 1]
@@ -21,7 +22,7 @@ def wrap(values: Array, f: int, mirrored: bool) -> None:
 
 
 @summing_kernel
-def _velocities(f: int, flow: Array, area: Array, inverse_area: Array, velocity: Array) -> float:
+def _velocities(f: int, flow: Floats, area: Floats, inverse_area: Floats, velocity: Floats) -> float:
     """1/A and u = Q/A of one face; D = 2 mean_φ(u), summed in an order that vectorises."""
     total = 0.0
     n_phi = flow.shape[1]
@@ -34,7 +35,7 @@ def _velocities(f: int, flow: Array, area: Array, inverse_area: Array, velocity:
 
 @kernel
 def _exponents(
-    f: int, axis_velocity: float, velocity: Array, inverse_share: Array, alpha: Array, friction: Array
+    f: int, axis_velocity: float, velocity: Floats, inverse_share: Floats, alpha: Floats, friction: Floats
 ) -> bool:
     """D/u, α and ½γ+1 of one face; whether 0 < u/D < 1 in every row, so that γ is positive."""
     admissible = 0
@@ -53,7 +54,7 @@ def _exponents(
 
 
 @kernel
-def _at_rest(velocity: Array, f: int) -> bool:
+def _at_rest(velocity: Floats, f: int) -> bool:
     """Whether every row of a face is slower than the rest velocity."""
     count = 0
     for j in range(velocity.shape[1]):
@@ -62,7 +63,7 @@ def _at_rest(velocity: Array, f: int) -> bool:
 
 
 @kernel
-def _inadmissible_row(f: int, velocity: Array, axis_velocity: float) -> int:
+def _inadmissible_row(f: int, velocity: Floats, axis_velocity: float) -> int:
     """First row with u/D outside ]0, 1[."""
     for j in range(velocity.shape[1]):
         if not 0.0 < velocity[f, j] / axis_velocity < 1.0:
@@ -72,7 +73,13 @@ def _inadmissible_row(f: int, velocity: Array, axis_velocity: float) -> int:
 
 @kernel
 def _closure_source(
-    f: int, area: Array, inverse_area: Array, inverse_share: Array, scale: float, dphi: float, source: Array
+    f: int,
+    area: Floats,
+    inverse_area: Floats,
+    inverse_share: Floats,
+    scale: float,
+    dphi: float,
+    source: Floats,
 ) -> None:
     """Δt S of one face, h as in model.md with 1/γ differenced; ``source`` holds ½γ+1 before.
 
@@ -89,7 +96,7 @@ def _closure_source(
 
 
 @kernel
-def _fixed_source(f: int, area: Array, exponent: float, scale: float, alpha: Array, source: Array) -> None:
+def _fixed_source(f: int, area: Floats, exponent: float, scale: float, alpha: Floats, source: Floats) -> None:
     """α and Δt S of one face for a given γ, friction only."""
     for j in range(source.shape[1]):
         alpha[f, j] = (exponent + 2.0) / (exponent + 1.0)
@@ -97,7 +104,7 @@ def _fixed_source(f: int, area: Array, exponent: float, scale: float, alpha: Arr
 
 
 @kernel
-def fixed_sources(area: Array, exponent: float, scale: float, alpha: Array, source: Array) -> None:
+def fixed_sources(area: Floats, exponent: float, scale: float, alpha: Floats, source: Floats) -> None:
     """α and Δt S of all faces for a given γ: the 1D model; arguments as :func:`closure_sources`."""
     for f in range(source.shape[0]):
         _fixed_source(f, area, exponent, scale, alpha, source)
@@ -105,17 +112,17 @@ def fixed_sources(area: Array, exponent: float, scale: float, alpha: Array, sour
 
 @kernel
 def closure_sources(
-    flow: Array,
-    area: Array,
+    flow: Floats,
+    area: Floats,
     scale: float,
     dphi: float,
     mirrored: bool,
-    inverse_area: Array,
-    velocity: Array,
-    inverse_share: Array,
-    axis_velocity: Array,
-    alpha: Array,
-    source: Array,
+    inverse_area: Floats,
+    velocity: Floats,
+    inverse_share: Floats,
+    axis_velocity: Floats,
+    alpha: Floats,
+    source: Floats,
 ) -> tuple[int, int, int]:
     """α and Δt S of all faces by the continuity closure.
 

@@ -17,6 +17,7 @@ see :mod:`solver.schemes.rows.ends`.
 
 import numpy as np
 
+from cases.arrays import Floats
 from solver.schemes.convergence import remaining
 from solver.schemes.layout import (
     NOT_CONVERGED,
@@ -24,7 +25,6 @@ from solver.schemes.layout import (
     OK,
     PRESSURE_INLET,
     REST_VELOCITY,
-    Array,
     Fields,
     Parameters,
     Stepping,
@@ -58,7 +58,7 @@ from solver.schemes.walls import wall_area
 
 
 @kernel
-def _mean(theta: float, old: Array, new: Array, mean: Array) -> None:
+def _mean(theta: float, old: Floats, new: Floats, mean: Floats) -> None:
     """θ-weighted mean of the old state and the iterate."""
     for i in range(mean.shape[0]):
         for j in range(mean.shape[1]):
@@ -165,14 +165,14 @@ def _sweep(
 
 
 @kernel
-def _copy(values: Array, target: Array) -> None:
+def _copy(values: Floats, target: Floats) -> None:
     for i in range(values.shape[0]):
         for j in range(values.shape[1]):
             target[i, j] = values[i, j]
 
 
 @kernel
-def _take(iterate: Array, state: Array) -> None:
+def _take(iterate: Floats, state: Floats) -> None:
     """Make the iterate the state, and its linear extrapolation in time the next step's first iterate."""
     for i in range(state.shape[0]):
         for j in range(state.shape[1]):
@@ -268,7 +268,7 @@ def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
 
 @kernel
 def advance(
-    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Array, outlet_offsets: Array
+    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Floats, outlet_offsets: Floats
 ) -> tuple[int, int, int, int, int]:
     """Take one step per entry of ``inlet_values`` and ``outlet_offsets`` (at the end of each step).
 

@@ -6,6 +6,7 @@ pressure a section nothing else says how what enters is spread over the rows.
 
 import numpy as np
 
+from cases.arrays import Floats
 from solver.schemes.layout import (
     FLOW_INLET,
     NON_REFLECTING,
@@ -13,7 +14,6 @@ from solver.schemes.layout import (
     PRESSURE_INLET,
     ROW_RESISTANCE,
     WINDKESSEL,
-    Array,
     Stepping,
 )
 from solver.schemes.sections.layout import Fields, Parameters, Workspace
@@ -24,7 +24,7 @@ INLET, OUTLET = 0, 1
 
 
 @inlined_kernel
-def end_walls(p: Parameters, pressure: Array, end_area: Array) -> tuple[int, int]:
+def end_walls(p: Parameters, pressure: Floats, end_area: Floats) -> tuple[int, int]:
     """Find A at the outlet, and at a pressure inlet, from end pressures; status and section."""
     n_x = p.table.shape[0]
     start, step = p.table_start, p.table_step
@@ -158,7 +158,7 @@ def _non_reflecting_law(p: Parameters, ws: Workspace, fields: Fields) -> tuple[f
 
 
 @inlined_kernel
-def spread(change: float, base: Array, shares: Array) -> None:
+def spread(change: float, base: Floats, shares: Floats) -> None:
     """Spread a section's change over its rows: what they have, and the rest by their shares, in place."""
     total = 0.0
     for j in range(base.size):

@@ -2,7 +2,8 @@
 
 from typing import NamedTuple
 
-from solver.schemes.layout import Array, aligned
+from cases.arrays import Floats
+from solver.schemes.layout import aligned
 
 
 class Parameters(NamedTuple):
@@ -36,8 +37,8 @@ class Parameters(NamedTuple):
     dphi: float
     density: float
     kinematic_viscosity: float
-    table: Array
-    sums: Array
+    table: Floats
+    sums: Floats
     table_start: float
     table_step: float
     fixed_exponent: float
@@ -57,49 +58,49 @@ class Fields(NamedTuple):
     inlet's, the sections' and the outlet's; ``reservoir`` (1,), the Windkessel's P_c, Pa.
     """
 
-    area: Array
-    flow: Array
-    pressure: Array
-    reservoir: Array
+    area: Floats
+    flow: Floats
+    pressure: Floats
+    reservoir: Floats
 
 
 class Workspace(NamedTuple):
     """Scratch of a run."""
 
-    iterate_flow: Array  # faces: Q'
-    iterate_area: Array  # cells: A(P')
-    mean_area: Array  # cells: θ-weighted A
-    mean_flow: Array  # faces: θ-weighted Q
-    face_area: Array  # faces: θ-weighted, with periodic ghosts
-    velocity: Array  # faces: u, with periodic ghosts
-    alpha: Array  # faces
-    damping: Array  # faces: Δt S
-    flux: Array  # cells: αQ²/A
-    cross_flow: Array  # (n_x, n_phi + 1): W on the φ-faces of cells
-    residual: Array  # faces: momentum balance, then δQ
-    older_flow: Array  # faces: one step earlier, for the first iterate
-    oldest_flow: Array  # faces: two steps earlier
-    old_end_area: Array  # (2, n_phi): at inlet and outlet
-    end_area: Array  # (2, n_phi): of the iterate
-    scratch: Array  # (5, n_phi + 2)
-    iterate_pressure: Array  # (n_x + 2,)
-    older_pressure: Array
-    oldest_pressure: Array
-    old_area_sum: Array  # (n_x,): Σ A
-    area_sum: Array  # (n_x,): Σ A(P')
-    slope_sum: Array  # (n_x,): Σ dA/dP
-    mass: Array  # (n_x,): mass balance, then δP
-    flux_slope: Array  # (n_x,): θ ∂(αQ²/A)/∂Q, mean over φ
-    flow_sum: Array  # (n_x + 1,): Σ of the θ-weighted Q
-    old_flow_sum: Array  # (n_x + 1,): Σ Q
-    new_flow_sum: Array  # (n_x + 1,): Σ Q'
-    mean_damping: Array  # (n_x + 1,)
-    area_total: Array  # (n_x + 1,): Σ A on faces
-    total: Array  # (n_x + 1,): Σ of the momentum balance over φ
-    matrix: Array  # (3, n_x + 1): lower, middle, upper of the rows' advection
-    section_matrix: Array  # (3, n_x + 1): the same with the pressure eliminated
-    change: Array  # (n_x + 1,): δΣQ
-    exchanged: Array  # (2,): volumes that passed inlet and outlet since last reset, m³
+    iterate_flow: Floats  # faces: Q'
+    iterate_area: Floats  # cells: A(P')
+    mean_area: Floats  # cells: θ-weighted A
+    mean_flow: Floats  # faces: θ-weighted Q
+    face_area: Floats  # faces: θ-weighted, with periodic ghosts
+    velocity: Floats  # faces: u, with periodic ghosts
+    alpha: Floats  # faces
+    damping: Floats  # faces: Δt S
+    flux: Floats  # cells: αQ²/A
+    cross_flow: Floats  # (n_x, n_phi + 1): W on the φ-faces of cells
+    residual: Floats  # faces: momentum balance, then δQ
+    older_flow: Floats  # faces: one step earlier, for the first iterate
+    oldest_flow: Floats  # faces: two steps earlier
+    old_end_area: Floats  # (2, n_phi): at inlet and outlet
+    end_area: Floats  # (2, n_phi): of the iterate
+    scratch: Floats  # (5, n_phi + 2)
+    iterate_pressure: Floats  # (n_x + 2,)
+    older_pressure: Floats
+    oldest_pressure: Floats
+    old_area_sum: Floats  # (n_x,): Σ A
+    area_sum: Floats  # (n_x,): Σ A(P')
+    slope_sum: Floats  # (n_x,): Σ dA/dP
+    mass: Floats  # (n_x,): mass balance, then δP
+    flux_slope: Floats  # (n_x,): θ ∂(αQ²/A)/∂Q, mean over φ
+    flow_sum: Floats  # (n_x + 1,): Σ of the θ-weighted Q
+    old_flow_sum: Floats  # (n_x + 1,): Σ Q
+    new_flow_sum: Floats  # (n_x + 1,): Σ Q'
+    mean_damping: Floats  # (n_x + 1,)
+    area_total: Floats  # (n_x + 1,): Σ A on faces
+    total: Floats  # (n_x + 1,): Σ of the momentum balance over φ
+    matrix: Floats  # (3, n_x + 1): lower, middle, upper of the rows' advection
+    section_matrix: Floats  # (3, n_x + 1): the same with the pressure eliminated
+    change: Floats  # (n_x + 1,): δΣQ
+    exchanged: Floats  # (2,): volumes that passed inlet and outlet since last reset, m³
 
 
 def workspace(n_x: int, n_phi: int) -> Workspace:

@@ -7,13 +7,14 @@ vectorise.
 import numpy as np
 from numba import njit
 
-from solver.schemes.layout import BEYOND_WALL_TABLE, NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY, Array
+from cases.arrays import Floats
+from solver.schemes.layout import BEYOND_WALL_TABLE, NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY
 
 FAST = {"reassoc", "contract", "nsz"}  # sums in an order that vectorises, fused multiply-add
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def wall_row(table: Array, start: float, step: float, pressure: float, area: Array) -> int:
+def wall_row(table: Floats, start: float, step: float, pressure: float, area: Floats) -> int:
     """Find A of one section's cells at its pressure in a table (knots, 2, n_phi); OK or BEYOND_WALL_TABLE."""
     last = table.shape[0] - 2
     position = (pressure - start) / step
@@ -32,7 +33,7 @@ def wall_row(table: Array, start: float, step: float, pressure: float, area: Arr
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def wall_sum(sums: Array, start: float, step: float, pressure: float) -> tuple[float, float]:
+def wall_sum(sums: Floats, start: float, step: float, pressure: float) -> tuple[float, float]:
     """ΣA and ΣdA/dP of one section at a pressure inside its table (knots, 2)."""
     position = (pressure - start) / step
     k = min(int(position), sums.shape[0] - 2)
@@ -45,14 +46,14 @@ def wall_sum(sums: Array, start: float, step: float, pressure: float) -> tuple[f
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def wall_areas(
-    table: Array,
-    sums: Array,
+    table: Floats,
+    sums: Floats,
     start: float,
     step: float,
-    pressure: Array,
-    area: Array,
-    totals: Array,
-    slopes: Array,
+    pressure: Floats,
+    area: Floats,
+    totals: Floats,
+    slopes: Floats,
 ) -> tuple[int, int]:
     """Find A of all cells, and ΣA and ΣdA/dP of all sections; status and section."""
     for i in range(area.shape[0]):
@@ -64,7 +65,7 @@ def wall_areas(
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def weighted(old: Array, new: Array, theta: float, mean: Array, totals: Array) -> None:
+def weighted(old: Floats, new: Floats, theta: float, mean: Floats, totals: Floats) -> None:
     """θ-weighted mean of two 2-D arrays, and its sums over φ."""
     for i in range(old.shape[0]):
         total = 0.0
@@ -76,7 +77,7 @@ def weighted(old: Array, new: Array, theta: float, mean: Array, totals: Array) -
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def section_sums(values: Array, totals: Array) -> None:
+def section_sums(values: Floats, totals: Floats) -> None:
     """Sum a 2-D array over φ."""
     for i in range(values.shape[0]):
         total = 0.0
@@ -86,7 +87,7 @@ def section_sums(values: Array, totals: Array) -> None:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def scaled_rows(values: Array, factors: Array, scaled: Array) -> None:
+def scaled_rows(values: Floats, factors: Floats, scaled: Floats) -> None:
     """Rows of a 2-D array times one factor each."""
     for i in range(values.shape[0]):
         for j in range(values.shape[1]):
@@ -94,7 +95,7 @@ def scaled_rows(values: Array, factors: Array, scaled: Array) -> None:
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def areas_between(old: Array, new: Array, theta: float, mean_area: Array, face_area: Array) -> None:
+def areas_between(old: Floats, new: Floats, theta: float, mean_area: Floats, face_area: Floats) -> None:
     """θ-weighted A in cells, and between them into the inside of rows with ghosts."""
     n = old.shape[1]
     for i in range(old.shape[0]):
@@ -107,13 +108,13 @@ def areas_between(old: Array, new: Array, theta: float, mean_area: Array, face_a
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def _closure(
-    area: Array,
-    velocity: Array,
-    inverse_area: Array,
-    bend: Array,
-    slope: Array,
-    alpha: Array,
-    damping: Array,
+    area: Floats,
+    velocity: Floats,
+    inverse_area: Floats,
+    bend: Floats,
+    slope: Floats,
+    alpha: Floats,
+    damping: Floats,
     d: float,
     scale: float,
     dphi: float,
@@ -147,7 +148,7 @@ def _closure(
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def _fixed(inverse_area: Array, alpha: Array, damping: Array, exponent: float, scale: float) -> None:
+def _fixed(inverse_area: Floats, alpha: Floats, damping: Floats, exponent: float, scale: float) -> None:
     """α and Δt S of one face for a given γ."""
     for j in range(alpha.size):
         alpha[j] = (exponent + 2.0) / (exponent + 1.0)
@@ -155,7 +156,7 @@ def _fixed(inverse_area: Array, alpha: Array, damping: Array, exponent: float, s
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _at_rest(velocity: Array) -> bool:
+def _at_rest(velocity: Floats) -> bool:
     count = 0
     for j in range(velocity.size):
         count += abs(velocity[j]) < REST_VELOCITY
@@ -163,7 +164,7 @@ def _at_rest(velocity: Array) -> bool:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _inadmissible_row(velocity: Array, d: float) -> int:
+def _inadmissible_row(velocity: Floats, d: float) -> int:
     for j in range(velocity.size - 2):
         if not 0.0 < velocity[j + 1] / d < 1.0:
             return j
@@ -172,14 +173,14 @@ def _inadmissible_row(velocity: Array, d: float) -> int:
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def profiles(
-    flow: Array,
-    face_area: Array,
-    velocity: Array,
-    alpha: Array,
-    damping: Array,
-    mean_damping: Array,
-    area_total: Array,
-    scratch: Array,
+    flow: Floats,
+    face_area: Floats,
+    velocity: Floats,
+    alpha: Floats,
+    damping: Floats,
+    mean_damping: Floats,
+    area_total: Floats,
+    scratch: Floats,
     exponent: float,
     scale: float,
     dphi: float,
@@ -222,7 +223,7 @@ def profiles(
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def momentum_fluxes(
-    flow: Array, mean_area: Array, alpha: Array, theta: float, flux: Array, slopes: Array
+    flow: Floats, mean_area: Floats, alpha: Floats, theta: float, flux: Floats, slopes: Floats
 ) -> None:
     """αQ²/A at cell centres, and θ times the mean over φ of its derivative by either face's Q."""
     n = flow.shape[1]
@@ -238,14 +239,14 @@ def momentum_fluxes(
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def cross_flows(
-    old_area: Array,
-    area: Array,
-    flow: Array,
+    old_area: Floats,
+    area: Floats,
+    flow: Floats,
     rate: float,
     dx: float,
     dphi: float,
-    source: Array,
-    cross: Array,
+    source: Floats,
+    cross: Floats,
 ) -> None:
     """W on the φ-faces of cells from the rows' mass balance, zero on average; ``rate`` is 1/Δt.
 
@@ -283,20 +284,20 @@ def cross_flows(
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
 def momentum_balance(
-    old: Array,
-    new: Array,
-    flow: Array,
-    damping: Array,
-    flux: Array,
-    cross: Array,
-    velocity: Array,
-    face_area: Array,
-    drive: Array,
+    old: Floats,
+    new: Floats,
+    flow: Floats,
+    damping: Floats,
+    flux: Floats,
+    cross: Floats,
+    velocity: Floats,
+    face_area: Floats,
+    drive: Floats,
     advection: float,
     exchange: float,
-    carried: Array,
-    residual: Array,
-    total: Array,
+    carried: Floats,
+    residual: Floats,
+    total: Floats,
 ) -> None:
     """Momentum balance of all inner faces and its sum over φ.
 
@@ -319,7 +320,7 @@ def momentum_balance(
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def solve_rows(residual: Array, face_area: Array, pull: Array, matrix: Array, outlet_known: bool) -> None:
+def solve_rows(residual: Floats, face_area: Floats, pull: Floats, matrix: Floats, outlet_known: bool) -> None:
     """δQ of all rows from their momentum balance, δQ at the inlet and the pressure's change, in place.
 
     ``pull`` is θΔt/(ρΔx) times the change of the pressure's difference on each face; ``matrix`` (3, faces) is
@@ -348,7 +349,7 @@ def solve_rows(residual: Array, face_area: Array, pull: Array, matrix: Array, ou
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def take_change(change: Array, flow: Array, totals: Array) -> tuple[float, float]:
+def take_change(change: Floats, flow: Floats, totals: Floats) -> tuple[float, float]:
     """Add δQ to the iterate; sums of squares of the change and of the new flow, and its sums over φ."""
     squares, size = 0.0, 0.0
     for f in range(flow.shape[0]):
@@ -364,7 +365,7 @@ def take_change(change: Array, flow: Array, totals: Array) -> tuple[float, float
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
-def copied(source: Array, target: Array) -> None:
+def copied(source: Floats, target: Floats) -> None:
     """Copy a 2-D array."""
     for i in range(source.shape[0]):
         for j in range(source.shape[1]):

@@ -18,8 +18,9 @@ that the rows sum up to the section. What the mean operator leaves out shrinks a
 
 import numpy as np
 
+from cases.arrays import Floats
 from solver.schemes.convergence import remaining
-from solver.schemes.layout import NOT_CONVERGED, NOT_FINITE, OK, PRESSURE_INLET, Array, Stepping
+from solver.schemes.layout import NOT_CONVERGED, NOT_FINITE, OK, PRESSURE_INLET, Stepping
 from solver.schemes.sections.ends import (
     end_face_areas,
     end_walls,
@@ -110,7 +111,7 @@ def _section_matrix(s: Stepping, p: Parameters, ws: Workspace, gap: float, answe
 
 
 @kernel
-def _thomas(matrix: Array, right: Array, solution: Array) -> None:
+def _thomas(matrix: Floats, right: Floats, solution: Floats) -> None:
     """Solve a tridiagonal system; the middle is overwritten."""
     lower, middle, upper = matrix[LOWER], matrix[MIDDLE], matrix[UPPER]
     last = right.size - 1
@@ -143,7 +144,7 @@ def _section_change(s: Stepping, p: Parameters, ws: Workspace, gap: float, answe
 
 
 @inlined_kernel
-def _drive(s: Stepping, p: Parameters, old: Array, new: Array, drive: Array) -> None:
+def _drive(s: Stepping, p: Parameters, old: Floats, new: Floats, drive: Floats) -> None:
     """Δt/(ρΔx) times the θ-weighted pressure's rise over each face; half cells at the ends."""
     scale, last = s.time_step / (p.density * p.dx), drive.size - 1
     for f in range(last + 1):
@@ -247,7 +248,7 @@ def _sweep(
 
 
 @summing_kernel
-def _extrapolate(new: Array, older: Array, oldest: Array, guess: Array, order: int) -> None:
+def _extrapolate(new: Floats, older: Floats, oldest: Floats, guess: Floats, order: int) -> None:
     """First iterate: the old state, or its extrapolation in time of order 1 or 2; remember the past."""
     a = (1.0, 2.0, 3.0)[order]
     b = (0.0, -1.0, -3.0)[order]
@@ -339,7 +340,7 @@ def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
 
 @kernel
 def advance(
-    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Array, outlet_offsets: Array
+    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Floats, outlet_offsets: Floats
 ) -> tuple[int, int, int, int, int]:
     """Take one step per entry of ``inlet_values`` and ``outlet_offsets`` (at the end of each step).
 

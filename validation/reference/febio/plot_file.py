@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import FebioReference
 from febio_io.xplt import Domain, Plot
 from validation.errors import UnusableReferenceError
@@ -17,8 +17,6 @@ from validation.mapping.pressure import recovery_operator
 DISPLACEMENT, VELOCITY = "displacement", "nodal fluid velocity"
 NODAL_PRESSURE, ELEMENT_PRESSURE = "effective fluid pressure", "fluid pressure"
 FLUID_VARIABLES = (NODAL_PRESSURE, ELEMENT_PRESSURE)
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

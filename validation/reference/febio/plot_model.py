@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats
 from cases.sections.case import FebioReference
 from cases.sections.reference import components
 from febio_io.xplt import Plot
@@ -23,8 +23,6 @@ from validation.reference.febio.plot_file import (
     require,
 )
 from validation.reference.frame import frame
-
-Floats = NDArray[np.float64]
 
 
 class NodalValues(NamedTuple):

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Indices
 from cases.sections.case import Case, FebioReference
 from febio_io.xplt import Plot, open_plot
 from solver.case.model import inlet_signal
@@ -34,9 +34,9 @@ LENGTH_TOLERANCE = 1e-3  # the mesh's length may differ from the case's by this 
 class _Kept:
     """Of each state: flow rate and area of the inlet, and rings of nodes at the tabulated cells."""
 
-    cells: tuple[NDArray[np.intp], ...]
+    cells: tuple[Indices, ...]
     inlet: list[tuple[float, float]] = field(default_factory=list)
-    rings: list[NDArray[np.float64]] = field(default_factory=list)
+    rings: list[Floats] = field(default_factory=list)
 
 
 def align_febio(case: Case) -> Alignment:
@@ -182,7 +182,7 @@ def _rings(kept: _Kept, rays: Rays) -> xr.DataArray:
     )
 
 
-def _check_direction(plot: Plot, inflow: NDArray[np.float64], alignment: Alignment, case: Case) -> None:
+def _check_direction(plot: Plot, inflow: Floats, alignment: Alignment, case: Case) -> None:
     """Refuse a reference whose blood flows against the prescribed inflow."""
     if case.inlet.kind == "pressure":
         return

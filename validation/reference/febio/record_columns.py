@@ -1,13 +1,11 @@
 """Columns of data records that a plot file has too, and its values of them."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cases.arrays import Floats, Integers
 from febio_io.xplt import Plot, Variable
 from validation.reference.febio.plot_file import DISPLACEMENT, ELEMENT_PRESSURE, VELOCITY
 
-Floats = NDArray[np.float64]
-Integers = NDArray[np.int64]
 Shared = dict[str, list[tuple[int, int]]]
 """Name of a variable → pairs of a column's place in the record and the variable's component."""
 

@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from cases.arrays import Floats
 from cases.sections.case import RecordFile
 from febio_io.text.data_records import DataRecord, read_data_record
 from febio_io.xplt import Plot
 from validation.errors import UnusableReferenceError
-from validation.reference.febio.record_columns import Floats, Shared, shared_columns, values_at
+from validation.reference.febio.record_columns import Shared, shared_columns, values_at
 from validation.runs.provenance import shown_path
 
 SINGLE = 1e-6  # of the largest value: single precision, in which plot files are, with a few roundings
