@@ -11,7 +11,7 @@ from pathlib import Path
 Drawing = Callable[[], str]
 Helper = subprocess.Popen[bytes]
 
-_PACKAGE_FOLDER = str(Path(__file__).resolve().parent.parent)
+_PACKAGE_FOLDER = str(Path(__file__).resolve().parents[2])
 _PROGRAM = "from reports.figures.drawn import serve; serve()"
 
 
