@@ -14,7 +14,7 @@ from reports.figures.drawing import STYLE, WIDTH, svg_text
 from solver.case.model import grid_of
 from validation.ablation.ladder import models_between
 from validation.mapping.rays import rays
-from validation.reference.febio.read import read_febio
+from validation.reference.febio.series import KIND
 from validation.runs.reduced_model import run_reduced_model
 
 ROOT = Path(__file__).parents[1]
@@ -28,7 +28,7 @@ def runs() -> dict[str, xr.Dataset]:
     case = load_case_file(ROOT / "cases/coupled.yaml").variants["local"]
     grid = grid_of(case)
     points = rays(grid.x, grid.phi)
-    reference = read_febio(case, points)
+    reference = KIND.read(case, points)
     models = models_between(case)
     found = {"3D": reference.fields}
     return found | {

@@ -1,5 +1,8 @@
 """The base of every section of a case file, and unions of sections that one word tells apart."""
 
+from collections.abc import Mapping
+from functools import reduce
+from operator import or_
 from types import UnionType
 from typing import Annotated, Any, TypeGuard, Union, get_args, get_origin
 
@@ -35,6 +38,11 @@ def bare(kind: Any) -> Any:
 def is_section(kind: object) -> TypeGuard[type[Section]]:
     """Tell whether an annotation is a section's class."""
     return isinstance(kind, type) and issubclass(kind, Section)
+
+
+def union_by_tag(members: Mapping[str, type[Section]]) -> Any:
+    """Return the union of sections that :func:`told_apart_by` tells apart by these words."""
+    return reduce(or_, (Annotated[member, Tag(word)] for word, member in members.items()))
 
 
 def members_by_tag(union: Any) -> dict[str, Any]:

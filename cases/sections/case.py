@@ -1,11 +1,11 @@
 """The schema of a case: every section, its keys and what they may hold. Values are in SI units."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from cases.sections.base import Section, told_apart_by
+from cases.sections.base import Section, told_apart_by, union_by_tag
 from cases.sections.calcification import (
     AxialTransition,
     AxisymmetricCalcification,
@@ -24,7 +24,10 @@ from cases.sections.outlet import (
     ResistanceOutlet,
     WindkesselOutlet,
 )
-from cases.sections.reference import FebioReference, Generate, RecordFile, Reference, TablesReference
+from cases.sections.references.base import ReferenceSection
+from cases.sections.references.febio import FebioReference, Generate, RecordFile
+from cases.sections.references.kinds import KINDS
+from cases.sections.references.tables import TablesReference
 from cases.sections.solver import (
     FEWEST_ROWS,
     MOST_STATES,
@@ -76,6 +79,7 @@ __all__ = [
     "PressureInlet",
     "PressureOutlet",
     "RecordFile",
+    "ReferenceSection",
     "ResistanceOutlet",
     "SemiImplicitSolver",
     "SeveralCalcifications",
@@ -86,6 +90,11 @@ __all__ = [
     "Wall",
     "WindkesselOutlet",
 ]
+
+if TYPE_CHECKING:
+    Reference = ReferenceSection
+else:
+    Reference = union_by_tag({name: kind.section for name, kind in KINDS.items()})
 
 SAME = 1e-9  # relative difference of sums and periods that are meant to be equal
 
@@ -128,8 +137,8 @@ class Case(Section):
         Title of the variant.
     geometry, blood, wall, calcification, inlet, outlet, solver : Section
         See their classes.
-    reference : FebioReference, TablesReference or None
-        The 3D results to compare with.
+    reference : ReferenceSection or None
+        The 3D results to compare with, of a kind of :data:`cases.sections.references.kinds.KINDS`.
     compare : Compare
         Cells (on the solver's grid), times (of the inlet's cycle) and bands of the comparison.
     """

@@ -9,7 +9,7 @@ from pathlib import Path
 from cases.errors import CaseError, QuantityError
 from cases.reading.case_file import CaseFile, load_case_file
 from cases.sections.case import Case
-from cases.sections.reference import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
+from cases.sections.references.febio import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
 from cases.values.ranges import TIME_STEPS
 from cases.values.units import DIMENSIONS, parse_quantity
 from febio_io.errors import FebioError

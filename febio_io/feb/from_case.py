@@ -19,7 +19,8 @@ from cases.sections.case import (
     VelocityInlet,
     WindkesselOutlet,
 )
-from cases.sections.reference import FebioReference, Reference
+from cases.sections.references.base import ReferenceSection
+from cases.sections.references.febio import FebioReference
 from cases.sections.wall import row_wall
 from cases.values.waveform_file import Waveform
 from febio_io.feb.load_curves import Signal, cycles_after_ramp, ramp_curve
@@ -124,7 +125,7 @@ def _refused(key: str, found: str, allowed: str) -> FebioModelError:
     return FebioModelError(f"{key}: {found}; allowed in a FEBio model: {allowed}")
 
 
-def _frame(reference: Reference | None) -> Frame:
+def _frame(reference: ReferenceSection | None) -> Frame:
     """Frame of the run to be: the model is whole, along an axis of its frame, in SI units."""
     if not isinstance(reference, FebioReference):
         return Frame()

@@ -14,7 +14,7 @@ from validation.ablation.ladder import models_between
 from validation.ablation.thesis_sectors import sector_errors
 from validation.mapping.rays import rays
 from validation.metrics.statistics import largest, rms
-from validation.reference.febio.read import read_febio
+from validation.reference.febio.series import KIND
 
 from small_case import ROOT  # isort: skip
 
@@ -49,7 +49,7 @@ def references():
             compare = CASES[variant].compare.model_copy(update={"cells": cells})
             case = CASES[variant].model_copy(update={"compare": compare})
             grid = grid_of(case)
-            found[variant] = read_febio(case, rays(grid.x[SECTIONS], grid.phi))
+            found[variant] = KIND.read(case, rays(grid.x[SECTIONS], grid.phi))
         return found[variant]
 
     return of

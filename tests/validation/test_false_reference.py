@@ -8,7 +8,7 @@ import pytest
 from small_case import bands, small_case, written
 
 from validation.compare import command as compare
-from validation.reference.febio import read as febio_reference
+from validation.reference.mesh import read as mesh_reference
 
 ALL_BANDS = [
     *(("pressure", "bias", "3 %"), ("section_pressure", "bias", "3 %"), ("systolic_pressure", "bias", "3 %")),
@@ -38,10 +38,10 @@ def test_a_false_reference_fails_just_the_rows_that_speak_of_it(
 ):
     path = written(bands(small_case("none"), *ALL_BANDS), tmp_path)
     assert compare.main([str(path), "--output", str(tmp_path / "right"), "--check"]) == 0
-    model_of = febio_reference.plot_model
+    model_of = mesh_reference.mesh_model
 
-    def false_model(plot, stated):
-        model = model_of(plot, stated)
+    def false_model(series, stated):
+        model = model_of(series, stated)
 
         def read(state):
             values = model.read(state)
@@ -49,7 +49,7 @@ def test_a_false_reference_fails_just_the_rows_that_speak_of_it(
 
         return replace(model, read=read)
 
-    monkeypatch.setattr(febio_reference, "plot_model", false_model)
+    monkeypatch.setattr(mesh_reference, "mesh_model", false_model)
     assert compare.main([str(path), "--output", str(tmp_path / "false"), "--check"]) == 1
     right, wrong = (pd.read_csv(tmp_path / name / "metrics.csv") for name in ("right", "false"))
     judged = wrong[wrong["status"].notna()]

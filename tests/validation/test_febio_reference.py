@@ -16,7 +16,7 @@ from cases.reading.case_file import load_case_file
 from febio_io.errors import FebioError
 from validation.errors import UnusableReferenceError
 from validation.mapping.mesh import Block
-from validation.reference.febio.read import read_febio
+from validation.reference.febio.series import KIND
 
 TUBE = Tube(sectors=12, rings=4, stacks=10, layers=2)
 TIMES = np.linspace(0.0, 2.392 / 3, 6)
@@ -34,7 +34,7 @@ def read(tmp_path):
         del content["variants"]["none"]["reference"]
         content["reference"] = {"kind": "febio", "axis": "z", "plot_file": str(path)} | (reference or {})
         case = load_case_file(written(content, tmp_path)).variants["none"]
-        return read_febio(case, tube.cells(12, 8))
+        return KIND.read(case, tube.cells(12, 8))
 
     return mapped
 
@@ -301,5 +301,5 @@ def test_progress_is_reported(tmp_path):
     content["reference"] |= {"lumen": ["Blood"], "wall": ["Wall"], "time_offset": "0 s"}
     case = load_case_file(written(content, tmp_path)).variants["none"]
     seen = SimpleNamespace(calls=[])
-    read_febio(case, TUBE.cells(12, 8), lambda done, total: seen.calls.append((done, total)))
+    KIND.read(case, TUBE.cells(12, 8), lambda done, total: seen.calls.append((done, total)))
     assert seen.calls == [(n, len(TIMES)) for n in range(1, len(TIMES) + 1)]

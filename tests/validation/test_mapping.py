@@ -17,7 +17,7 @@ from validation.mapping.state import Mapper
 from validation.mapping.surface import area_across_axis, enclosed_volume, flow_along_axis, flux
 from validation.mapping.wall_radius import interface_radius
 from validation.metrics.curved_section import curved_flow_rate
-from validation.reference.frame import frame
+from validation.reference.mesh.frame import frame
 
 COARSE = Tube(sectors=12, rings=4, stacks=10, layers=2)
 KINDS = [
@@ -27,7 +27,9 @@ KINDS = [
 
 
 def mapped(tube, cells):
-    return Mapper(tube.mesh, cells).map_state(tube.displacement, tube.velocity, tube.nodal_pressure)
+    return Mapper(tube.mesh, cells).map_state(
+        tube.coordinates + tube.displacement, tube.velocity, tube.nodal_pressure
+    )
 
 
 def fields(tube, cells):
@@ -162,9 +164,7 @@ def test_fields_linear_in_the_coordinates_are_exact(tetrahedra):
     slopes = np.array([[1.0, -2.0, 0.5], [0.3, 0.7, -1.1], [2.0, 0.1, 0.4]])
     start = np.array([0.02, 0.01, -0.03])
     slope = np.array([-4e4, 3e4, -1e4])
-    state = Mapper(tube.mesh, cells).map_state(
-        tube.displacement, points @ slopes.T + start, 1e4 + points @ slope
-    )
+    state = Mapper(tube.mesh, cells).map_state(points, points @ slopes.T + start, 1e4 + points @ slope)
     at = cells.points(state.chord)
     assert_allclose(state.velocity, cells.cylindrical(at @ slopes.T + start), rtol=0, atol=1e-12)
     expected = cells.mean(1e4 + at @ slope)
@@ -235,7 +235,7 @@ def test_any_frame_gives_the_same_answers(axis, sign, turned):
     coordinates, displacement, velocity = placed(COARSE, place)
     mesh = lumen_mesh(place.points(coordinates), COARSE.lumen, COARSE.vessel_wall)
     state = Mapper(mesh, cells).map_state(
-        place.displacements(displacement), place.velocities(velocity), COARSE.nodal_pressure
+        place.points(coordinates + displacement), place.directions(velocity), COARSE.nodal_pressure
     )
     for found, expected in zip(state, mapped(COARSE, cells), strict=True):
         assert_allclose(found, expected, rtol=1e-9, atol=1e-12)
@@ -296,9 +296,7 @@ class TestBoundary:
         # x → −2x, y → y, z → z stretches without change of volume, about any point
         points = COARSE.coordinates + COARSE.displacement
         velocity = points * np.array([-2.0, 1.0, 1.0]) + np.array([0.3, 0.01, -0.02])
-        state = Mapper(COARSE.mesh, COARSE.cells(3, 4)).map_state(
-            COARSE.displacement, velocity, COARSE.nodal_pressure
-        )
+        state = Mapper(COARSE.mesh, COARSE.cells(3, 4)).map_state(points, velocity, COARSE.nodal_pressure)
         assert abs(state.inflow - state.outflow - state.wall_flow) < 1e-13 * abs(state.inflow)
         assert state.wall_flow > 0.01 * state.inflow
 
@@ -329,7 +327,7 @@ class TestUnusable:
         )
         with pytest.raises(UnusableReferenceError, match=r"no lumen element holds .* r/R = 0$"):
             Mapper(mesh, COARSE.cells(2, 4)).map_state(
-                COARSE.displacement, COARSE.velocity, COARSE.nodal_pressure
+                COARSE.coordinates + COARSE.displacement, COARSE.velocity, COARSE.nodal_pressure
             )
 
     def test_no_shared_face(self):

@@ -8,7 +8,7 @@ from cases.reading.case_file import load_case_file
 from solver.case.model import inlet_signal
 from validation.mapping.rays import rays
 from validation.metrics.curved_section import curved_flow_rate
-from validation.reference.febio.read import read_febio
+from validation.reference.febio.series import KIND
 
 X = np.array([0.625e-3, 6.875e-3, 7.5e-3, 14.375e-3])
 PHI = np.arange(8) * np.pi / 4
@@ -20,7 +20,7 @@ def runs(tmp_path_factory):
     content = small_case("none", "axisymmetric", "local")
     content["compare"]["cells"]["i"] = [1, 2, 4]
     file = load_case_file(written(content, tmp_path_factory.mktemp("case")))
-    return {name: (case, read_febio(case, rays(X, PHI))) for name, case in file.variants.items()}
+    return {name: (case, KIND.read(case, rays(X, PHI))) for name, case in file.variants.items()}
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +29,7 @@ def between_corners(tmp_path_factory):
     file = load_case_file(written(small_case("local"), tmp_path_factory.mktemp("case")))
     case = file.variants["local"]
     cells = rays((np.arange(12) + 0.5) * 1.25e-3, (np.arange(8) + 0.5) * np.pi / 4)
-    return case, read_febio(case, cells)
+    return case, KIND.read(case, cells)
 
 
 def test_all_states_of_one_cycle_are_used(runs):

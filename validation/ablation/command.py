@@ -31,9 +31,10 @@ from validation.mapping.rays import rays
 from validation.metrics.statistics import largest, rms
 from validation.reference.generated import check_stated
 from validation.reference.kind import Reference
+from validation.reference.kinds import kind_of
 from validation.runs.output import MARK, write_json
 from validation.runs.reduced_model import run_reduced_model
-from validation.runs.variants import Watch, kind_of, watching
+from validation.runs.variants import Watch, watching
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
 WRONG_INPUT, INTERRUPTED = 2, 130

@@ -16,7 +16,7 @@ from solver.runs.result import CellHistory, coordinates, described, section_mean
 from validation.errors import ValidationError
 from validation.mapping.rays import rays
 from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
-from validation.reference.kinds import REFERENCE_KINDS
+from validation.reference.kinds import kind_of
 from validation.runs.cache import Cache
 from validation.runs.cached import cached_reference
 from validation.runs.reduced_model import run_times
@@ -133,9 +133,7 @@ def _of_reference(
     calibration: Calibration, target: ReferenceTarget, watch: Watch, cache: Cache | None
 ) -> Observed:
     case, quantity = calibration.case, target.quantity
-    if case.reference is None:
-        raise ValidationError(f"variant {calibration.variant!r} states no reference")
-    kind, grid = REFERENCE_KINDS[case.reference.kind], grid_of(case)
+    kind, grid = kind_of(calibration.variant, case), grid_of(case)
     alignment = kind.align(case)
     with watch.step("3D onto cells") as progress:
         reference = cached_reference(

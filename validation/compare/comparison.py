@@ -10,7 +10,7 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
-from cases.sections.case import Case, NoCalcification, TablesReference
+from cases.sections.case import Case, NoCalcification
 from solver.case.model import calcified_cells
 from solver.runs.result import CONVENTIONS
 from validation.errors import ValidationError
@@ -43,20 +43,13 @@ def baselines_of(file: CaseFile) -> dict[str, str]:
     baseline is left out.
     """
     healthy = [n for n, case in file.variants.items() if isinstance(case.calcification, NoCalcification)]
+    sources = {n: case.reference and case.reference.source for n, case in file.variants.items()}
     found = {}
-    for name, case in file.variants.items():
-        same = [other for other in healthy if _source(file.variants[other]) == _source(case)]
+    for name in file.variants:
+        same = [other for other in healthy if sources[other] == sources[name]]
         if same:
             found[name] = same[0]
     return found
-
-
-def _source(case: Case) -> tuple[str, str]:
-    """Kind of a reference and which simulation it holds."""
-    reference = case.reference
-    if reference is None:
-        return "", ""
-    return reference.kind, reference.simulation if isinstance(reference, TablesReference) else ""
 
 
 def baseline_of(file: CaseFile) -> str:
@@ -164,7 +157,7 @@ def attributes(file: CaseFile, times: Floats) -> dict[str, Any]:
         "compare_time_names": json.dumps(list(instants)),
         "compare_times_s": times[list(instants.values())],
         "sparse_reference": int(
-            any(isinstance(c.reference, TablesReference) for c in file.variants.values())
+            any(c.reference is not None and c.reference.sparse for c in file.variants.values())
         ),
         "baselines": json.dumps(baselines_of(file)),
         "case_yaml": file.text,

@@ -61,13 +61,13 @@ class Mapper:
         self._rim_faces = np.zeros((n_x, self.rays.rim.size), dtype=np.int64)
         self._node_faces = np.zeros(self.mesh.lumen_nodes.size, dtype=np.int64)
 
-    def map_state(self, displacement: Floats, velocity: Floats, pressure: Floats) -> MappedState:
+    def map_state(self, points: Floats, velocity: Floats, pressure: Floats) -> MappedState:
         """Bring nodal values onto the rays.
 
         Parameters
         ----------
-        displacement, velocity : ndarray (n_nodes, 3)
-            In the artery's frame, m and m/s.
+        points, velocity : ndarray (n_nodes, 3)
+            Deformed nodes, m, and velocity, m/s, in the artery's frame.
         pressure : ndarray (n_nodes,)
             Pa.
 
@@ -77,7 +77,6 @@ class Mapper:
             If a ray misses the wall, or a point on it lies in no lumen element.
         """
         mesh, rays = self.mesh, self.rays
-        points = mesh.coordinates + displacement
         radius = self._radius(points, rays.phi, self._faces, chord=False)
         chord = self._radius(points, rays.phi, self._chord_faces, chord=True)
         rim = self._radius(points, rays.rim, self._rim_faces, chord=True)

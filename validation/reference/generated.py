@@ -5,8 +5,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from cases.reading.case_file import ONLY_VARIANT, CaseFile
-from cases.sections.case import Case, FebioReference
+from cases.sections.case import Case
+from cases.sections.references.kinds import KINDS
+from cases.values.wording import choices
 from validation.errors import ValidationError
+from validation.reference.kinds import kind_of
 from validation.runs.provenance import shown_path
 
 
@@ -28,7 +31,8 @@ def _without_reference(file: CaseFile, missing: list[str]) -> str:
     alone = ["python", "-m", "solver", str(file.path), "--variant", missing[0], "--output", "run.nc"]
     return (
         f"{file.path}: reference{whose}: missing, there is nothing to compare with; allowed: kind febio "
-        "(plot_file, and generate where the 3D run is yet to be made) or kind tables (docs/case_file.md); "
+        "(plot_file, and generate where the 3D run is yet to be made) or "
+        f"kind {choices(kind for kind in KINDS if kind != 'febio')} (docs/case_file.md); "
         f"the 2D model alone: {shlex.join(alone)}"
     )
 
@@ -46,28 +50,17 @@ def check_computed(path: Path, cases: Mapping[str, Case]) -> None:
     Raises
     ------
     ValidationError
-        If files of a reference with ``generate`` are missing; the message says which commands make them.
+        If files of a reference are missing; the message says which commands make them, if any do.
     """
-    stated = {
-        name: case.reference for name, case in cases.items() if isinstance(case.reference, FebioReference)
-    }
-    missing = {name: reference for name, reference in stated.items() if not reference.plot_file.is_file()}
-    if missing:
-        raise ValidationError(_instructions(path, missing))
-    for name, reference in stated.items():
+    references = {name: case.reference for name, case in cases.items() if case.reference is not None}
+    lines = [
+        line
+        for name, reference in references.items()
+        for line in kind_of(name, cases[name]).how_to_make(reference, path, name)
+    ]
+    if lines:
+        raise ValidationError("\n".join(lines))
+    for name, reference in references.items():
         for needed in reference.files:
             if not needed.is_file():
                 raise ValidationError(f"variant {name!r}: {shown_path(needed)}: no such file (reference)")
-
-
-def _instructions(case: Path, missing: Mapping[str, FebioReference]) -> str:
-    lines = []
-    for name, reference in missing.items():
-        plot, model = reference.plot_file, reference.plot_file.with_suffix(".feb")
-        make = ["python", "-m", "febio_io.feb", str(case), "--variant", name, "--output", shown_path(model)]
-        lines += [
-            f"variant {name!r}: reference.plot_file: {shown_path(plot)}: not there yet; to make it:",
-            f"  {shlex.join(make)}",
-            f"  {shlex.join(['python', '-m', 'febio_io.run', shown_path(model)])}",
-        ]
-    return "\n".join(lines)

@@ -1,11 +1,12 @@
 """Where 3D data comes from: the protocol that a kind of reference follows.
 
-A kind is one module with a :class:`ReferenceKind`; :mod:`validation.reference.kinds` registers it under
-the ``reference.kind`` of the case file, and :mod:`cases.sections.reference` holds what a case states of it.
+A kind is one module that holds a :class:`ReferenceKind` named ``KIND`` and a section of the case file;
+:mod:`cases.sections.references.kinds` registers both.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import xarray as xr
@@ -15,6 +16,7 @@ from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
 
 Progress = Callable[[float, float], None]
+HowToMake = Callable[[Any, Path, str], list[str]]
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,11 @@ class Reference:
     cycle: Mapping[str, float] = field(default_factory=dict)
 
 
+def nothing_to_make(_stated: Any, _case: Path, _variant: str) -> list[str]:
+    """Tell of a reference that its files must exist."""
+    return []
+
+
 @dataclass(frozen=True)
 class ReferenceKind:
     """How a kind of reference is read.
@@ -68,7 +75,10 @@ class ReferenceKind:
     read : callable (case, rays, progress, alignment) -> Reference
         Data at the instants of ``alignment`` on ``rays``; calls ``progress(done, total)``, if given. Both
         raise a `ValidationError` or an error of the file's reader with one line that names the file.
+    how_to_make : callable (section, path of the case file, variant) -> list of str
+        What to do about files that are yet to be computed, in lines; none where they are there.
     """
 
     align: Callable[[Case], Alignment]
     read: Callable[[Case, Rays, Progress | None, Alignment | None], Reference]
+    how_to_make: HowToMake = nothing_to_make

@@ -1,10 +1,22 @@
-"""The kinds of reference that a case may state."""
+"""The reader of a reference's kind, loaded when it is asked for."""
 
-from validation.reference import tables as tables_reference
-from validation.reference.febio import read as febio_reference
+from importlib import import_module
+
+from cases.sections.case import Case
+from cases.sections.references.kinds import KINDS
+from validation.errors import ValidationError
 from validation.reference.kind import ReferenceKind
 
-REFERENCE_KINDS: dict[str, ReferenceKind] = {
-    "febio": ReferenceKind(febio_reference.align_febio, febio_reference.read_febio),
-    "tables": ReferenceKind(tables_reference.align_tables, tables_reference.read_tables),
-}
+
+def kind_of(variant: str, case: Case) -> ReferenceKind:
+    """Kind of a variant's reference.
+
+    Raises
+    ------
+    ValidationError
+        If the case states none.
+    """
+    if case.reference is None:
+        raise ValidationError(f"variant {variant!r} states no reference")
+    kind: ReferenceKind = import_module(KINDS[case.reference.kind].reader).KIND
+    return kind

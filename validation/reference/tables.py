@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 
 from cases.errors import QuantityError
 from cases.fields import FIELDS
-from cases.sections.case import Case, TablesReference
+from cases.sections.case import Case
+from cases.sections.references.tables import TablesReference
 from cases.values.units import DIMENSION_OF_UNIT, parse_quantity
 from validation.errors import UnusableReferenceError
 from validation.mapping.derived import as_dataset
 from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
-from validation.reference.kind import Progress, Reference
+from validation.reference.kind import Progress, Reference, ReferenceKind
 from validation.runs.provenance import shown_path
 
 PRINTED = 2e-3  # s: printed times are rounded, and one instant is not always printed alike
@@ -110,7 +111,7 @@ def read_tables(
         alignment=alignment,
         description=_description(stated, alignment),
         notes=(),
-        sparse=True,
+        sparse=stated.sparse,
         cycle=_quoted(stated),
     )
 
@@ -230,3 +231,6 @@ def _description(stated: TablesReference, alignment: Alignment) -> dict[str, Any
         "states_compared": len(stated.instants),
         "coverage": round(alignment.coverage, 6),
     }
+
+
+KIND = ReferenceKind(align_tables, read_tables)

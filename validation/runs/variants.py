@@ -18,8 +18,8 @@ from validation.compare.comparison import VariantRun
 from validation.errors import ValidationError
 from validation.mapping.rays import Rays, rays
 from validation.reference.alignment import Alignment
-from validation.reference.kind import Progress, Reference, ReferenceKind
-from validation.reference.kinds import REFERENCE_KINDS
+from validation.reference.kind import Progress, Reference
+from validation.reference.kinds import kind_of
 from validation.runs.cache import Cache
 from validation.runs.cached import cached_reference, cached_rom
 from validation.runs.reduced_model import ReducedModelRun
@@ -75,13 +75,6 @@ def align_variants(cases: Mapping[str, Case]) -> dict[str, Alignment]:
         If a case states no reference; else as the kind of reference raises.
     """
     return {name: kind_of(name, case).align(case) for name, case in cases.items()}
-
-
-def kind_of(name: str, case: Case) -> ReferenceKind:
-    """Kind of a variant's reference."""
-    if case.reference is None:
-        raise ValidationError(f"variant {name!r} states no reference")
-    return REFERENCE_KINDS[case.reference.kind]
 
 
 def run_variants(

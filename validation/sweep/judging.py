@@ -19,7 +19,7 @@ from validation.metrics.bands import judged_value
 from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
 from validation.metrics.rows import Models
 from validation.reference.kind import Progress
-from validation.reference.kinds import REFERENCE_KINDS
+from validation.reference.kinds import kind_of
 from validation.runs.cache import Cache
 from validation.runs.cached import cached_reference
 
@@ -140,9 +140,7 @@ def standards(
 def _of_reference(
     name: str, case: Case, quantities: set[str], cache: Cache | None, watch: Watcher
 ) -> Standard:
-    if case.reference is None:
-        raise ValidationError(f"variant {name!r} states no reference")
-    kind, grid = REFERENCE_KINDS[case.reference.kind], grid_of(case)
+    kind, grid = kind_of(name, case), grid_of(case)
     alignment, points = kind.align(case), rays(grid.x, grid.phi)
     found = cached_reference(cache, kind, case, points, watch.progress, alignment, watch.remark)
     for warning in found.warnings:

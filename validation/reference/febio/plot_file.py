@@ -1,18 +1,16 @@
 """What the mapping takes from a FEBio plot file: lumen and wall, displacement, velocity, pressure."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from cases.arrays import Floats
-from cases.sections.case import FebioReference
+from cases.sections.references.febio import FebioReference
 from febio_io.xplt import Domain, Plot
 from validation.errors import UnusableReferenceError
 from validation.mapping.elements import KIND_OF_VTK_TYPE, NODES
-from validation.mapping.interpolation import Topology
 from validation.mapping.mesh import KIND_NAMES, Block
-from validation.mapping.pressure import recovery_operator
+from validation.reference.mesh.series import Where
 
 DISPLACEMENT, VELOCITY = "displacement", "nodal fluid velocity"
 NODAL_PRESSURE, ELEMENT_PRESSURE = "effective fluid pressure", "fluid pressure"
@@ -69,7 +67,9 @@ def choose_domains(plot: Plot, reference: FebioReference) -> Domains:
         )
     both = {d.name for d in lumen if d in wall}
     if both:
-        raise UnusableReferenceError(f"domains named both lumen and wall: {', '.join(sorted(both))}")
+        raise UnusableReferenceError(
+            f"{plot.path}: domains named both lumen and wall: {', '.join(sorted(both))}"
+        )
     used = {d.region for d in lumen} | {d.region for d in wall}
     left = [d.name or f"number {d.region}" for d in plot.mesh.domains if d.region not in used]
     if left:
@@ -121,33 +121,29 @@ def require(plot: Plot) -> None:
         raise UnusableReferenceError(f"{plot.path}: plot variable {wanted} is missing; it has: {have}")
 
 
-def pressure_reader(
-    plot: Plot, lumen: tuple[Domain, ...], mesh: Topology, coordinates: Floats
-) -> Callable[[int], Floats]:
-    """Choose how nodal pressure is read: FEBio's continuous one, else recovered from element averages.
+def pressure_at(plot: Plot, lumen: tuple[Domain, ...]) -> Where:
+    """Where the lumen has pressure: FEBio's continuous one at nodes, else averages of elements.
 
-    Returns
-    -------
-    callable
-        state → nodal pressure (n_nodes,), Pa; zero off the lumen.
+    Raises
+    ------
+    UnusableReferenceError
+        Naming the domains without.
     """
     regions = {domain.region for domain in lumen}
     if regions <= set(_regions(plot, NODAL_PRESSURE)):
-        return lambda state: _continuous_pressure(plot, lumen, state)
+        return "nodes"
     missing = regions - set(_regions(plot, ELEMENT_PRESSURE))
     if missing:
         names = ", ".join(d.name for d in lumen if d.region in missing)
         raise UnusableReferenceError(f"{plot.path}: no fluid pressure in lumen domain {names}")
-    operator = recovery_operator(mesh, coordinates)
+    return "cells"
 
-    def recovered(state: int) -> Floats:
+
+def lumen_pressure(plot: Plot, lumen: tuple[Domain, ...], state: int, where: Where) -> Floats:
+    """Pressure of the lumen's elements, or at all nodes and zero off the lumen, in the file's unit."""
+    if where == "cells":
         averages = [plot.field(ELEMENT_PRESSURE, state, domain.region) for domain in lumen]
-        return np.asarray(operator @ np.concatenate(averages).astype(float))
-
-    return recovered
-
-
-def _continuous_pressure(plot: Plot, lumen: tuple[Domain, ...], state: int) -> Floats:
+        return np.concatenate(averages).astype(float)
     nodal = np.zeros(len(plot.mesh.coordinates))
     for domain in lumen:
         nodal[domain.nodes] = plot.field(NODAL_PRESSURE, state, domain.region)

@@ -1,0 +1,79 @@
+"""Whether a 3D result is that of the case: length, radius, direction of flow, calcification, planes."""
+
+import numpy as np
+import xarray as xr
+
+from cases.arrays import Floats
+from cases.sections.case import Case
+from solver.case.model import inlet_signal
+from validation.errors import UnusableReferenceError
+from validation.mapping.mesh import LumenMesh
+from validation.mapping.plane_section import lumen_grid, plane_flow_rate
+from validation.mapping.rays import Rays
+from validation.reference.alignment import Alignment
+from validation.reference.mesh.model import MeshModel
+
+RADIUS_TOLERANCE = 1e-2  # and the mean radius of its unloaded interface by this share
+LENGTH_TOLERANCE = 1e-3  # the mesh's length may differ from the case's by this share
+
+
+def check_length(mesh: LumenMesh, case: Case) -> None:
+    """Refuse a lumen of another length than the case's, or one that starts elsewhere."""
+    first = float(mesh.coordinates[mesh.inlet, 0].min())
+    tolerance = LENGTH_TOLERANCE * case.geometry.length
+    if abs(mesh.length - case.geometry.length) > tolerance or abs(first) > tolerance:
+        raise UnusableReferenceError(
+            f"the lumen runs from x = {first:.6g} m over {mesh.length:.6g} m; the case's artery "
+            f"starts at reference.origin and is {case.geometry.length:.6g} m long (geometry.length)"
+        )
+
+
+def check_radius(mesh: LumenMesh, case: Case) -> None:
+    """Refuse an unloaded interface of another mean radius than the case's."""
+    across = mesh.coordinates[mesh.interface_nodes, 1:]
+    radius = float(np.mean(np.hypot(across[:, 0], across[:, 1])))
+    if abs(radius - case.geometry.radius) > RADIUS_TOLERANCE * case.geometry.radius:
+        raise UnusableReferenceError(
+            f"the unloaded lumen's radius is {radius:.6g} m on average about reference.origin; "
+            f"the case's is {case.geometry.radius:.6g} m (geometry.radius)"
+        )
+
+
+def check_direction(inflow: Floats, alignment: Alignment, case: Case) -> None:
+    """Refuse a reference whose blood flows against the prescribed inflow.
+
+    Parameters
+    ----------
+    inflow : ndarray (n_states,)
+        Flow rate through the inlet at the instants of ``alignment``, m³/s.
+    alignment : Alignment
+    case : Case
+    """
+    if case.inlet.kind == "pressure":
+        return
+    prescribed = float(np.mean(inlet_signal(case)(alignment.cycle_times)))
+    mean = float(np.mean(inflow))
+    if prescribed * mean < 0:
+        raise UnusableReferenceError(
+            f"blood flows against the inflow of the case ({mean:.3g} m³/s on average at "
+            "reference.origin): reference.axis and origin must follow the flow"
+        )
+
+
+def plane_checks(model: MeshModel, alignment: Alignment, case: Case, rays: Rays) -> xr.Dataset:
+    """Flow rates through planes at a few states, by surface integral."""
+    sections = np.array(case.compare.cells.i) - 1
+    few = np.unique(np.linspace(0, len(alignment.states) - 1, 5).astype(int))
+    grid = lumen_grid(model.mesh.lumen)
+    planes = np.empty((few.size, sections.size))
+    for row, number in enumerate(alignment.states[few].tolist()):
+        points, velocity, _ = model.read(number)
+        planes[row] = [plane_flow_rate(grid, points, velocity, float(x)) for x in rays.x[sections]]
+    return xr.Dataset(
+        {"plane_flow_rate": (("check_time", "check_x"), planes)},
+        coords={
+            "time": alignment.cycle_times,
+            "check_time": alignment.cycle_times[few],
+            "check_x": rays.x[sections],
+        },
+    )

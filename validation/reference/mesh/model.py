@@ -1,0 +1,95 @@
+"""A series as the mapping takes it: whole, in the artery's frame, with values at nodes."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from cases.arrays import Floats
+from cases.sections.references.base import MeshReference
+from cases.sections.references.directions import components
+from validation.errors import UnusableReferenceError
+from validation.mapping.interpolation import topology
+from validation.mapping.mesh import Block, LumenMesh, lumen_mesh, padded
+from validation.mapping.mirror import mirror
+from validation.mapping.pressure import recovery_operator
+from validation.reference.mesh.frame import frame
+from validation.reference.mesh.series import MeshSeries, MeshState, SeriesMesh
+
+
+@dataclass(frozen=True)
+class MeshModel:
+    """What the mapping needs of a series.
+
+    Attributes
+    ----------
+    mesh : LumenMesh
+    calcified : list of Block or None
+        Calcified elements of the wall; None where nothing tells them.
+    read : callable
+        Number of a state → its nodal values; raises UnusableReferenceError where one is not finite.
+    notes : tuple of str
+        What was left out.
+    """
+
+    mesh: LumenMesh
+    calcified: list[Block] | None
+    read: Callable[[int], MeshState]
+    notes: tuple[str, ...]
+
+
+def mesh_model(series: MeshSeries, stated: MeshReference) -> MeshModel:
+    """Read the mesh of a series, and how its states are read.
+
+    Raises
+    ------
+    UnusableReferenceError
+        If it lacks what the mapping needs.
+    """
+    found = series.mesh()
+    place = frame(stated.axis, stated.phi_zero, stated.origin)
+    coordinates = place.points(found.coordinates)
+    to_nodes = _to_nodes(found, coordinates)
+
+    def read(number: int) -> MeshState:
+        state = series.state(number)
+        nodal = MeshState(
+            place.points(state.positions),
+            place.directions(to_nodes(state.velocity) if found.velocity_at == "cells" else state.velocity),
+            to_nodes(state.pressure) if found.pressure_at == "cells" else state.pressure,
+        )
+        for name, array in zip(nodal._fields, nodal, strict=True):
+            if not np.all(np.isfinite(array)):
+                raise UnusableReferenceError(f"{name} of state {number + 1}: not finite everywhere")
+        return nodal
+
+    if stated.symmetry is None:
+        mesh = lumen_mesh(coordinates, found.lumen, found.wall)
+        return MeshModel(mesh, found.calcified, read, found.notes)
+    used = np.unique(np.concatenate([block.nodes.ravel() for block in (*found.lumen, *found.wall)]))
+    both = mirror(coordinates, used, place.directions(np.array(components(stated.symmetry))))
+
+    def read_both(number: int) -> MeshState:
+        half = read(number)
+        return MeshState(
+            both.vectors(half.positions), both.vectors(half.velocity), both.scalars(half.pressure)
+        )
+
+    return MeshModel(
+        lumen_mesh(both.vectors(coordinates), both.blocks(found.lumen), both.blocks(found.wall)),
+        None if found.calcified is None else both.blocks(found.calcified),
+        read_both,
+        (
+            *found.notes,
+            f"{Path(series.name).name} holds one half; the other is its image in the plane of symmetry",
+        ),
+    )
+
+
+def _to_nodes(found: SeriesMesh, coordinates: Floats) -> Callable[[Floats], Floats]:
+    """Return how values of the lumen's cells become nodal, zero off the lumen."""
+    if "cells" not in (found.velocity_at, found.pressure_at):
+        return lambda values: values
+    operator = recovery_operator(topology(*padded(found.lumen), len(coordinates)), coordinates)
+    return lambda values: np.asarray(operator @ values)
