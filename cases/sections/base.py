@@ -8,6 +8,8 @@ from typing import Annotated, Any, TypeGuard, Union, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Tag
 
+SAME = 1e-9  # relative difference of sums and periods that are meant to be equal
+
 
 class Section(BaseModel):
     """A frozen section that refuses unknown keys."""

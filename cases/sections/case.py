@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from cases.sections.base import Section, told_apart_by, union_by_tag
+from cases.sections.base import SAME, Section, told_apart_by, union_by_tag
 from cases.sections.calcification import (
     AxialTransition,
     AxisymmetricCalcification,
@@ -39,16 +39,8 @@ from cases.sections.solver import (
     Start,
 )
 from cases.sections.sources import FourierSeries
-from cases.sections.wall import (
-    LINEAR_LAWS,
-    HomogeneousWall,
-    Layer,
-    LayeredWall,
-    MembraneWall,
-    TableWall,
-    Wall,
-    row_wall,
-)
+from cases.sections.wall import MembraneWall, Wall, row_wall
+from cases.sections.wall_laws import LAWS
 from cases.values.kinds import ArteryLength, Density, Radius, Thickness, Viscosity, Words, refused
 
 __all__ = [
@@ -66,10 +58,7 @@ __all__ = [
     "Generate",
     "Geometry",
     "GodunovSolver",
-    "HomogeneousWall",
     "Inlet",
-    "Layer",
-    "LayeredWall",
     "LocalCalcification",
     "MembraneWall",
     "NoCalcification",
@@ -84,7 +73,6 @@ __all__ = [
     "SemiImplicitSolver",
     "SeveralCalcifications",
     "Solver",
-    "TableWall",
     "TablesReference",
     "VelocityInlet",
     "Wall",
@@ -95,9 +83,6 @@ if TYPE_CHECKING:
     Reference = ReferenceSection
 else:
     Reference = union_by_tag({name: kind.section for name, kind in KINDS.items()})
-
-SAME = 1e-9  # relative difference of sums and periods that are meant to be equal
-
 
 class Geometry(Section):
     """The unloaded artery, a straight circular cylinder.
@@ -157,17 +142,9 @@ class Case(Section):
     @field_validator("wall")
     @classmethod
     def _around_the_lumen(cls, wall: Wall, info: ValidationInfo) -> Wall:
-        geometry, own = info.data.get("geometry"), row_wall(wall)
-        if geometry is not None and isinstance(own, LayeredWall):
-            total = sum(layer.thickness for layer in own.layers)
-            if abs(total - geometry.wall_thickness) > SAME * geometry.wall_thickness:
-                allowed = f"thicknesses that sum to geometry.wall_thickness ({geometry.wall_thickness:g} m)"
-                raise refused(f"{total:.9g} m in all", allowed, key=("layers",))
-        if geometry is not None and isinstance(own, TableWall):
-            least, largest = own.table.radii[[0, -1]]
-            if not least <= geometry.radius <= largest:
-                allowed = f"a range that holds geometry.radius ({geometry.radius:g} m)"
-                raise refused(f"radii from {least:g} m to {largest:g} m", allowed, key=("table",))
+        geometry = info.data.get("geometry")
+        if geometry is not None:
+            row_wall(wall).refuse_unfit(geometry.radius, geometry.wall_thickness)
         return wall
 
     @field_validator("calcification")
@@ -179,10 +156,11 @@ class Case(Section):
                 where = ("patches", k) if isinstance(calcification, SeveralCalcifications) else ()
                 allowed = f"at most the artery's length ({geometry.length:g} m)"
                 raise refused(f"{part.x[1]:g} m", allowed, key=(*where, "x", 1))
-        own = None if wall is None or not calcification.parts else row_wall(wall)
-        if isinstance(own, LayeredWall) and not any(layer.calcifies for layer in own.layers):
-            allowed = "none, unless a layer of the wall states calcifies: true"
-            raise refused(calcification.pattern, allowed, key=("pattern",))
+        if wall is not None and calcification.parts:
+            layers = row_wall(wall).layers_within(0.0 if geometry is None else geometry.wall_thickness)
+            if not any(layer.calcifies for layer in layers):
+                allowed = "none, unless a layer of the wall states calcifies: true"
+                raise refused(calcification.pattern, allowed, key=("pattern",))
         return calcification
 
     @field_validator("outlet")
@@ -201,8 +179,9 @@ class Case(Section):
     def _fits_the_case(cls, solver: Solver, info: ValidationInfo) -> Solver:
         inlet, calcification = info.data.get("inlet"), info.data.get("calcification")
         wall, outlet = info.data.get("wall"), info.data.get("outlet")
-        if isinstance(solver, GodunovSolver) and wall is not None and wall.law not in LINEAR_LAWS:
-            allowed = f"semi_implicit with the wall law {wall.law}; godunov with {', '.join(LINEAR_LAWS)}"
+        linear = [name for name, law in LAWS.items() if law.linear]
+        if isinstance(solver, GodunovSolver) and wall is not None and wall.law not in linear:
+            allowed = f"semi_implicit with the wall law {wall.law}; godunov with {', '.join(linear)}"
             raise refused(solver.scheme, allowed, key=("scheme",))
         if inlet is not None and solver.time_step > inlet.period:
             allowed = f"at most the period of the inlet ({inlet.period:g} s)"
@@ -234,10 +213,10 @@ class Case(Section):
     @property
     def input_files(self) -> tuple[Path, ...]:
         """Absolute paths of the files that the case was read from, besides the case file itself."""
-        outlet, wall = self.outlet, row_wall(self.wall)
+        outlet = self.outlet
         paths = (
             *(() if self.reference is None else self.reference.files),
-            wall.table.path if isinstance(wall, TableWall) else None,
+            *(getattr(value, "path", None) for _, value in self.wall),
             None if self.inlet.waveform is None else self.inlet.waveform.path,
             outlet.waveform.path if isinstance(outlet, PressureOutlet) and outlet.waveform else None,
         )

@@ -143,7 +143,11 @@ def text(allowed: str, pattern: str) -> ValueKind:
 
 def one_of(literal: object) -> ValueKind:
     """Return the kind of words that a `Literal`, or a union of such, lists."""
-    words = words_of(literal)
+    return one_of_words(words_of(literal))
+
+
+def one_of_words(words: tuple[str, ...]) -> ValueKind:
+    """Return the kind of these words."""
 
     def parse(value: object, _context: Context | None) -> str:
         if not isinstance(value, str) or value not in words:

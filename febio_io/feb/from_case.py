@@ -11,7 +11,6 @@ from cases.arrays import Floats
 from cases.sections.case import (
     Case,
     FourierSeries,
-    HomogeneousWall,
     LocalCalcification,
     NonReflectingOutlet,
     PressureOutlet,
@@ -22,6 +21,8 @@ from cases.sections.case import (
 from cases.sections.references.base import ReferenceSection
 from cases.sections.references.febio import FebioReference
 from cases.sections.wall import row_wall
+from cases.sections.wall_laws import LAWS
+from cases.sections.wall_laws.law import HomogeneousWall
 from cases.values.waveform_file import Waveform
 from febio_io.feb.load_curves import Signal, cycles_after_ramp, ramp_curve
 from febio_io.feb.model import (
@@ -37,17 +38,9 @@ from febio_io.feb.model import (
     Timing,
     Vessel,
     Wall,
-    WallLaw,
     Windkessel,
 )
 
-# The linear walls of the reduced model stand for FEBio's Saint Venant–Kirchhoff material.
-WALL_LAWS: dict[str, WallLaw] = {
-    "thin": "isotropic elastic",
-    "thick": "isotropic elastic",
-    "saint_venant_kirchhoff": "isotropic elastic",
-    "neo_hookean": "neo-Hookean",
-}
 STEPS_PER_CYCLE = 200
 RAMP_SHARE = 0.25  # of a cycle, where no reference tells when the cycles start
 SLACK = 1e-3  # of a step, by which the last one may miss the end of the last cycle
@@ -145,13 +138,14 @@ def _frame(reference: ReferenceSection | None) -> Frame:
 
 def _wall(case: Case) -> Wall:
     wall = row_wall(case.wall)
-    if not isinstance(wall, HomogeneousWall):
-        raise _refused("wall.law", wall.law, ", ".join(WALL_LAWS))
+    if not isinstance(wall, HomogeneousWall) or wall.febio_material is None:
+        known = [name for name, law in LAWS.items() if law.febio_material is not None]
+        raise _refused("wall.law", f"{wall.law}, {wall.not_in_febio}", ", ".join(known))
     if wall.reference_pressure != 0:
         raise _refused(
             "wall.reference_pressure", f"{wall.reference_pressure:g} Pa", "0 Pa: it starts unloaded"
         )
-    return Wall(WALL_LAWS[wall.law], wall.youngs_modulus, wall.poisson_ratio)
+    return Wall(wall.febio_material, wall.youngs_modulus, wall.poisson_ratio)
 
 
 def _patch(case: Case) -> Patch | None:

@@ -8,7 +8,6 @@ import numpy as np
 from cases.arrays import Floats
 from febio_io.errors import FebioError
 
-WallLaw = Literal["isotropic elastic", "neo-Hookean"]
 Core = Literal["wedges", "o_grid"]
 LARGEST_MESH = 50_000_000  # elements; FEBio numbers nodes and elements with 32 bits
 
@@ -125,7 +124,7 @@ class Blood:
 class Wall:
     """The wall's material: FEBio's name of it, Young's modulus (Pa), Poisson's ratio, density (kg/m³)."""
 
-    law: WallLaw
+    law: str
     youngs_modulus: float
     poisson_ratio: float
     density: float = 1000.0

@@ -36,7 +36,7 @@ def setup_of(case: Case, model: Model) -> Setup:
     Raises
     ------
     ModelError
-        For a wall law but thin and thick, or a sharp or divided calcification.
+        For a wall but a linear one of one material, or a sharp or divided calcification.
     """
     settings = case.solver
     if not isinstance(settings, GodunovSolver):

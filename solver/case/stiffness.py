@@ -3,18 +3,18 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from cases.arrays import Floats
 from cases.sections.calcification import AxialTransition, LocalCalcification, Part, PatchTransition
 from cases.sections.case import Case
-from cases.sections.wall import HomogeneousWall, LayeredWall, TableWall, row_wall
+from cases.sections.wall import row_wall
+from cases.sections.wall_laws import LAWS
+from cases.sections.wall_laws.hyperelastic import HyperelasticWall
+from cases.sections.wall_laws.law import CurveWall, HomogeneousWall
 from solver.errors import ModelError
 from solver.geometry.calcification import Patch, calcified_stiffness, scaled_distance
 from solver.geometry.grid import Grid
 from solver.wall.finite_strain import inflation_curve
-from solver.wall.layers import Layer, layered_wall_stiffness
-from solver.wall.stiffness import WALL_LAWS, thick_wall_stiffness, wall_stiffness
 from solver.wall.table import MasterCurve, WallTable, wall_table
 
 # loads that a nonlinear wall is tabulated for, as shares of the healthy Young's modulus
@@ -41,14 +41,8 @@ def patch_of(stated: Part) -> Patch:
     )
 
 
-def modulus_on_grid(case: Case, grid: Grid, healthy: float) -> Floats:
-    """Young's modulus of a calcifying material in every cell, Pa; of several parts the largest change.
-
-    Raises
-    ------
-    ModelError
-        If a calcified part changes no cell.
-    """
+def _modulus_on_grid(case: Case, grid: Grid, healthy: float) -> Floats:
+    """Young's modulus of a calcifying material in every cell, Pa; of several parts the largest change."""
     modulus = np.full((grid.n_x, grid.n_phi), healthy)
     for part in case.calcification.parts:
         distance = scaled_distance(grid, patch_of(part))
@@ -62,8 +56,24 @@ def modulus_on_grid(case: Case, grid: Grid, healthy: float) -> Floats:
     return modulus
 
 
+def moduli_on_grid(case: Case, grid: Grid) -> list[Floats]:
+    """Young's modulus of each layer of a case's wall in every cell, Pa.
+
+    Raises
+    ------
+    ModelError
+        If a calcified part changes no cell.
+    """
+    return [
+        _modulus_on_grid(case, grid, layer.youngs_modulus)
+        if layer.calcifies
+        else np.full((grid.n_x, grid.n_phi), layer.youngs_modulus)
+        for layer in row_wall(case.wall).layers_within(case.geometry.wall_thickness)
+    ]
+
+
 def healthy_and_calcified(case: Case) -> tuple[float, float]:
-    """β of the healthy and of the calcified wall of law thin or thick, Pa m; equal without calcification.
+    """β of the healthy and of the calcified wall of one linear material, Pa m; equal without calcification.
 
     Raises
     ------
@@ -73,11 +83,12 @@ def healthy_and_calcified(case: Case) -> tuple[float, float]:
     wall, geometry, parts = case.wall, case.geometry, case.calcification.parts
     if len(parts) > 1:
         raise ModelError(f"{len(parts)} calcified patches; allowed here: one")
-    if not isinstance(wall, HomogeneousWall) or wall.law not in WALL_LAWS:
-        raise ModelError(f"wall law {wall.law!r}; allowed here: {', '.join(WALL_LAWS)}")
+    if not isinstance(wall, HomogeneousWall) or not wall.linear:
+        allowed = [name for name, law in LAWS.items() if law.linear and issubclass(law, HomogeneousWall)]
+        raise ModelError(f"wall law {wall.law!r}; allowed here: {', '.join(allowed)}")
     calcified = parts[0].youngs_modulus if parts else wall.youngs_modulus
     moduli = np.array([wall.youngs_modulus, calcified])
-    betas = wall_stiffness(wall.law, moduli, geometry.radius, geometry.wall_thickness, wall.poisson_ratio)
+    betas = wall.stiffness([moduli], geometry.radius, geometry.wall_thickness)
     return float(betas[0]), float(betas[1])
 
 
@@ -89,50 +100,24 @@ def wall_on_grid(case: Case, grid: Grid) -> WallOnGrid:
     ModelError
         If the law is known for no pressure of interest.
     """
-    wall, geometry = row_wall(case.wall), case.geometry
-    if isinstance(wall, LayeredWall):
-        layers = [
-            Layer(
-                layer.thickness,
-                modulus_on_grid(case, grid, layer.youngs_modulus)
-                if layer.calcifies
-                else layer.youngs_modulus,
-            )
-            for layer in wall.layers
-        ]
-        stiffness = layered_wall_stiffness(layers, geometry.radius, wall.poisson_ratio)
-        return WallOnGrid(np.broadcast_to(stiffness, (grid.n_x, grid.n_phi)).copy(), wall.reference_pressure)
-    modulus = modulus_on_grid(case, grid, wall.youngs_modulus)
-    if isinstance(wall, TableWall):
-        return _tabulated(case, wall, modulus)
-    if wall.law in WALL_LAWS:
-        stiffness = wall_stiffness(
-            wall.law, modulus, geometry.radius, geometry.wall_thickness, wall.poisson_ratio
-        )
-        return WallOnGrid(stiffness, wall.reference_pressure)
-    return _finite_strain(case, wall, modulus)
+    wall, sizes = row_wall(case.wall), (case.geometry.radius, case.geometry.wall_thickness)
+    moduli = moduli_on_grid(case, grid)
+    stiffness, start = wall.stiffness(moduli, *sizes), wall.unloaded_pressure(sizes[0])
+    if not isinstance(wall, HyperelasticWall | CurveWall):
+        return WallOnGrid(stiffness, start)
+    curve, lowest, highest = _load_curve(wall, *sizes)
+    relative = moduli[0] / wall.layers_within(sizes[1])[0].youngs_modulus
+    return WallOnGrid(stiffness, start, wall_table(curve, relative, start, start + lowest, start + highest))
 
 
-def _finite_strain(case: Case, wall: HomogeneousWall, modulus: Floats) -> WallOnGrid:
-    geometry, healthy = case.geometry, wall.youngs_modulus
-    sizes = (wall.poisson_ratio, geometry.radius, geometry.wall_thickness)
-    low, high = LOWEST_LOAD * healthy, HIGHEST_LOAD * healthy
-    curve = inflation_curve(wall.law, healthy, *sizes, low, high)
-    stiffness = thick_wall_stiffness(modulus, geometry.radius, geometry.wall_thickness, wall.poisson_ratio)
-    start = wall.reference_pressure
-    table = wall_table(curve, modulus / healthy, start, start + low, start + high)
-    return WallOnGrid(stiffness, start, table)
-
-
-def _tabulated(case: Case, wall: TableWall, modulus: Floats) -> WallOnGrid:
-    """User's P(R), its loads scaled by E; P₀ is its pressure at the unloaded radius."""
-    radius = case.geometry.radius
-    pressure_of = PchipInterpolator(wall.table.radii, wall.table.pressures)
-    start = float(pressure_of(radius))
-    relative = modulus / wall.youngs_modulus
-    loads = wall.table.pressures - start
-    radius_of = PchipInterpolator(loads, wall.table.radii)
-    curve = MasterCurve(loads, wall.table.radii, radius_of.derivative()(loads))
-    stiffness = relative * radius**2 / float(radius_of.derivative()(0.0))
-    table = wall_table(curve, relative, start, start + float(loads[0]), start + float(loads[-1]))
-    return WallOnGrid(stiffness, start, table)
+def _load_curve(
+    wall: HyperelasticWall | CurveWall, radius: float, thickness: float
+) -> tuple[MasterCurve, float, float]:
+    """Curve of a nonlinear law's healthy wall, and the loads from and to which it is tabulated, Pa."""
+    if isinstance(wall, HyperelasticWall):
+        healthy = wall.youngs_modulus
+        ends = LOWEST_LOAD * healthy, HIGHEST_LOAD * healthy
+        sizes = wall.poisson_ratio, radius, thickness
+        return inflation_curve(wall.stresses, healthy, *sizes, *ends), *ends
+    curve = MasterCurve(*wall.load_curve(radius))
+    return curve, float(curve.loads[0]), float(curve.loads[-1])

@@ -7,8 +7,8 @@ import numpy as np
 from cases.arrays import Floats
 from cases.sections.case import Case
 from cases.sections.solver import SemiImplicitSolver
-from cases.sections.wall import LayeredWall, MembraneWall, OwnWall, row_wall
-from solver.case.stiffness import WallOnGrid, modulus_on_grid, wall_on_grid
+from cases.sections.wall import MembraneWall, row_wall
+from solver.case.stiffness import WallOnGrid, moduli_on_grid, wall_on_grid
 from solver.geometry.grid import Grid
 from solver.wall import membrane_tables
 from solver.wall.sections import SectionWall, linear_section_wall, row_table, tabulated_section_wall
@@ -58,7 +58,7 @@ def walls_of(case: Case, grid: Grid) -> Walls:
 
 def membrane_of(case: Case, grid: Grid, own: WallOnGrid) -> membrane_tables.MembraneWall | None:
     """Return the membrane of a case whose rows by themselves are ``own``; None for another wall."""
-    wall, radius = case.wall, case.geometry.radius
+    wall, radius, thickness = case.wall, case.geometry.radius, case.geometry.wall_thickness
     if not isinstance(wall, MembraneWall):
         return None
     highest = membrane_tables.HIGHEST_GROWTH * float(np.min(own.stiffness)) / radius
@@ -76,7 +76,7 @@ def membrane_of(case: Case, grid: Grid, own: WallOnGrid) -> membrane_tables.Memb
         radius=radius,
         reference_pressure=own.reference_pressure,
         stiffness=secant_stiffness,
-        shear=_shear_stiffness(case, grid, row_wall(wall), wall.poisson_ratio),
+        shear=row_wall(wall).shear_stiffness(moduli_on_grid(case, grid), thickness, wall.poisson_ratio),
         supports=wall.supports,
         highest_load=highest,
     )
@@ -87,16 +87,3 @@ def _load_of_growth(table: WallTable, radius: float, reference_pressure: float) 
     pressures = table.start + table.step * np.arange(table.values.shape[2])
     moderate = np.max(table.values[..., 0], axis=(0, 1)) <= (1 + NONLINEAR_GROWTH) * radius
     return float(np.max(pressures[moderate]) - reference_pressure)
-
-
-def _shear_stiffness(case: Case, grid: Grid, wall: OwnWall, poisson_ratio: float) -> Floats:
-    """S = Σ G h of the wall's layers, G = E/(2(1 + ν)), N/m."""
-    if isinstance(wall, LayeredWall):
-        moduli = sum(
-            layer.thickness
-            * (modulus_on_grid(case, grid, layer.youngs_modulus) if layer.calcifies else layer.youngs_modulus)
-            for layer in wall.layers
-        )
-    else:
-        moduli = case.geometry.wall_thickness * modulus_on_grid(case, grid, wall.youngs_modulus)
-    return np.broadcast_to(np.asarray(moduli) / (2 * (1 + poisson_ratio)), (grid.n_x, grid.n_phi)).copy()

@@ -1,4 +1,4 @@
-"""Inflation of a thick tube at finite strain: R(P) of Saint Venant–Kirchhoff and neo-Hookean walls.
+"""Inflation of a thick tube at finite strain: R(P) of a hyperelastic wall.
 
 Plane strain along the axis, compressible material, pressure inside only. The deformed radius r(ρ) is a
 polynomial over the wall; it makes the potential energy stationary,
@@ -15,52 +15,19 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from cases.arrays import Floats
-from solver.errors import ModelError
 from solver.wall.table import MasterCurve
 
 DEGREE, QUADRATURE = 8, 24  # of the polynomial r(ρ), and points of the integral
 CONVERGED = 1e-12
 
-
-class Stresses(NamedTuple):
-    """∂W/∂λ_r, ∂W/∂λ_θ and the second derivatives rr, rθ, θθ, Pa."""
-
-    r: Floats
-    t: Floats
-    rr: Floats
-    rt: Floats
-    tt: Floats
+# ∂W/∂λ_r, ∂W/∂λ_θ and the second derivatives rr, rθ, θθ, Pa
+Stresses = tuple[Floats, Floats, Floats, Floats, Floats]
+Constitutive = Callable[[float, float, Floats, Floats], Stresses]
 
 
 def _lame(youngs_modulus: float, poisson_ratio: float) -> tuple[float, float]:
     shear = youngs_modulus / (2 * (1 + poisson_ratio))
     return 2 * shear * poisson_ratio / (1 - 2 * poisson_ratio), shear
-
-
-def saint_venant_kirchhoff(lam: float, mu: float, r: Floats, t: Floats) -> Stresses:
-    """W = ½λ(E_r + E_θ)² + μ(E_r² + E_θ²) with Green–Lagrange strains E = ½(λ² − 1)."""
-    er, et = 0.5 * (r * r - 1), 0.5 * (t * t - 1)
-    sr, st = lam * (er + et) + 2 * mu * er, lam * (er + et) + 2 * mu * et
-    return Stresses(r * sr, t * st, sr + (lam + 2 * mu) * r * r, lam * r * t, st + (lam + 2 * mu) * t * t)
-
-
-def neo_hookean(lam: float, mu: float, r: Floats, t: Floats) -> Stresses:
-    """W = ½μ(λ_r² + λ_θ² − 2) − μ ln J + ½λ (ln J)², J = λ_r λ_θ (FEBio's compressible neo-Hookean)."""
-    volume = np.log(r * t)
-    push = lam * volume - mu
-    return Stresses(
-        mu * r + push / r,
-        mu * t + push / t,
-        mu + (lam - push) / (r * r),
-        lam / (r * t),
-        mu + (lam - push) / (t * t),
-    )
-
-
-MATERIALS: dict[str, Callable[[float, float, Floats, Floats], Stresses]] = {
-    "saint_venant_kirchhoff": saint_venant_kirchhoff,
-    "neo_hookean": neo_hookean,
-}
 
 
 class _Tube(NamedTuple):
@@ -75,15 +42,14 @@ class _Tube(NamedTuple):
 
 
 def _tube(
-    material: str, youngs_modulus: float, poisson_ratio: float, radius: float, thickness: float
+    stresses: Constitutive, youngs_modulus: float, poisson_ratio: float, radius: float, thickness: float
 ) -> _Tube:
     lam, mu = _lame(youngs_modulus, poisson_ratio)
-    law = MATERIALS[material]
     points, weights = legendre.leggauss(QUADRATURE)
     position = radius + 0.5 * thickness * (points + 1)
     identity = np.eye(DEGREE + 1)
     return _Tube(
-        stress=lambda r, t: law(lam, mu, r, t),
+        stress=lambda r, t: stresses(lam, mu, r, t),
         position=position,
         weight=0.5 * thickness * weights * position,
         value=np.asarray(legendre.legvander(points, DEGREE), dtype=float),
@@ -97,12 +63,12 @@ def _equilibrium(tube: _Tube, pressure: float, start: Floats) -> tuple[Floats, F
     c = start.copy()
     hoop = tube.value / tube.position[:, None]
     for _ in range(30):
-        s = tube.stress(tube.slope @ c, hoop @ c)
+        s_r, s_t, s_rr, s_rt, s_tt = tube.stress(tube.slope @ c, hoop @ c)
         inner = tube.inner @ c
-        gradient = tube.slope.T @ (tube.weight * s.r) + hoop.T @ (tube.weight * s.t)
+        gradient = tube.slope.T @ (tube.weight * s_r) + hoop.T @ (tube.weight * s_t)
         gradient -= pressure * inner * tube.inner
-        mixed = tube.slope.T * (tube.weight * s.rt) @ hoop
-        hessian = tube.slope.T * (tube.weight * s.rr) @ tube.slope + hoop.T * (tube.weight * s.tt) @ hoop
+        mixed = tube.slope.T * (tube.weight * s_rt) @ hoop
+        hessian = tube.slope.T * (tube.weight * s_rr) @ tube.slope + hoop.T * (tube.weight * s_tt) @ hoop
         hessian += mixed + mixed.T - pressure * np.outer(tube.inner, tube.inner)
         change = np.linalg.solve(hessian, gradient)
         c = c - change
@@ -114,7 +80,7 @@ def _equilibrium(tube: _Tube, pressure: float, start: Floats) -> tuple[Floats, F
 
 
 def inflation_curve(
-    material: str,
+    stresses: Constitutive,
     youngs_modulus: float,
     poisson_ratio: float,
     radius: float,
@@ -126,23 +92,16 @@ def inflation_curve(
 
     Parameters
     ----------
-    material : str
-        A name of MATERIALS.
+    stresses : callable
+        Lamé's constants λ and μ, Pa, and stretches λ_r and λ_θ → derivatives of W.
     youngs_modulus, poisson_ratio : float
         E, Pa, and ν of the linearised material.
     radius, thickness : float
         Inner radius and thickness of the unloaded wall, m.
     lowest, highest : float
         Pressures above the one of the unloaded wall, Pa; lowest ≤ 0 ≤ highest.
-
-    Raises
-    ------
-    ModelError
-        For an unknown material.
     """
-    if material not in MATERIALS:
-        raise ModelError(f"wall material {material!r} is unknown; allowed: {', '.join(MATERIALS)}")
-    tube = _tube(material, youngs_modulus, poisson_ratio, radius, thickness)
+    tube = _tube(stresses, youngs_modulus, poisson_ratio, radius, thickness)
     unloaded = np.zeros(DEGREE + 1)
     unloaded[0], unloaded[1] = radius + 0.5 * thickness, 0.5 * thickness
     step = (highest - lowest) / 400

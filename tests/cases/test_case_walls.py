@@ -4,7 +4,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from cases.sections.case import HomogeneousWall, LayeredWall, TableWall
+from cases.sections.wall_laws.law import HomogeneousWall
+from cases.sections.wall_laws.layered import LayeredWall
+from cases.sections.wall_laws.table import TableWall
 
 THICK = "{law: thick, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}"
 LAYERS = (

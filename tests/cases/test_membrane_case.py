@@ -3,8 +3,10 @@
 import pytest
 from test_case_walls import LAYERS, THICK, wall_of
 
-from cases.sections.case import HomogeneousWall, LayeredWall, MembraneWall, TableWall
-from cases.sections.wall import row_wall
+from cases.sections.wall import MembraneWall, row_wall
+from cases.sections.wall_laws.law import HomogeneousWall
+from cases.sections.wall_laws.layered import LayeredWall
+from cases.sections.wall_laws.table import TableWall
 
 MATERIAL = "youngs_modulus: 0.6 MPa, poisson_ratio: 0.48"
 MEMBRANES = {

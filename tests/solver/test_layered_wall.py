@@ -1,14 +1,31 @@
 """Layered walls: bonded Lamé cylinders."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solver.wall.layers import Layer, layered_wall_stiffness
-from solver.wall.stiffness import thick_wall_stiffness
+from cases.sections.wall_laws.law import Layer as StatedLayer
+from cases.sections.wall_laws.layered import LayeredWall
+from cases.sections.wall_laws.thick import lame_stiffness
 
 RADIUS, RATIO = 2.5e-3, 0.48
+
+
+class Layer(NamedTuple):
+    thickness: float
+    youngs_modulus: object
+
+
+def layered_wall_stiffness(layers, radius, ratio):
+    parts = tuple(StatedLayer.model_construct(thickness=layer.thickness) for layer in layers)
+    wall = LayeredWall.model_construct(layers=parts, poisson_ratio=ratio)
+    moduli = [layer.youngs_modulus for layer in layers]
+    return wall.stiffness(moduli, radius, sum(layer.thickness for layer in layers))
+
+
 INTIMA, MEDIA, ADVENTITIA = Layer(0.05e-3, 0.4e6), Layer(0.3e-3, 0.8e6), Layer(0.15e-3, 0.5e6)
 
 thicknesses = st.lists(st.floats(1e-5, 1e-3), min_size=1, max_size=5)
@@ -44,7 +61,7 @@ def force_balance(layers, ratio, pressure=1.0):
 @given(thicknesses, moduli, st.floats(0.0, 0.499))
 def test_equal_layers_are_one_thick_wall(parts, modulus, ratio):
     layers = [Layer(part, modulus) for part in parts]
-    one = thick_wall_stiffness(modulus, RADIUS, sum(parts), ratio)
+    one = lame_stiffness(modulus, ratio, RADIUS, sum(parts))
     assert layered_wall_stiffness(layers, RADIUS, ratio) == pytest.approx(float(one), rel=1e-9)
 
 
@@ -64,8 +81,8 @@ def test_a_calcified_media_lies_between_healthy_and_calcified():
         return float(layered_wall_stiffness(layers, RADIUS, RATIO))
 
     calcified = 10e6
-    everywhere = float(thick_wall_stiffness(calcified, RADIUS, 0.5e-3, RATIO))
-    alone = float(thick_wall_stiffness(calcified, RADIUS, 0.3e-3, RATIO))
+    everywhere = float(lame_stiffness(calcified, RATIO, RADIUS, 0.5e-3))
+    alone = float(lame_stiffness(calcified, RATIO, RADIUS, 0.3e-3))
     assert wall(MEDIA.youngs_modulus) < wall(calcified) < everywhere
     # nearly that of the calcified media alone, on its own radius
     assert wall(calcified) == pytest.approx(alone, rel=0.2)

@@ -2,10 +2,10 @@
 
 from cases.sections.case import Case
 from cases.sections.solver import SemiImplicitSolver
-from cases.sections.wall import HomogeneousWall, MembraneWall, OwnWall, TableWall, row_wall
+from cases.sections.wall import MembraneOnLaws, MembraneWall, Wall, row_wall
+from cases.sections.wall_laws import LAWS
+from cases.sections.wall_laws.law import HomogeneousWall, WallLaw
 from validation.errors import ValidationError
-
-LINEAR = ("thin", "thick")
 
 
 def models_between(case: Case) -> dict[str, Case]:
@@ -30,10 +30,7 @@ def models_between(case: Case) -> dict[str, Case]:
     if not isinstance(solver, SemiImplicitSolver):
         raise ValidationError("solver.scheme: the models compared need semi_implicit")
     own, whole = row_wall(case.wall), _membrane(case.wall)
-    walls: dict[str, OwnWall | MembraneWall] = {
-        law: _of_law(own, law) for law in LINEAR if isinstance(own, HomogeneousWall) and own.law in LINEAR
-    }
-    walls |= {own.law: own, "membrane": whole}
+    walls = {**_of_linear_laws(own), own.law: own, "membrane": whole}
     by_rows, by_sections = (solver.model_copy(update={"pressure": kind}) for kind in ("row", "section"))
     found = {
         f"{name} wall, row pressure": case.model_copy(update={"wall": wall, "solver": by_rows})
@@ -59,14 +56,22 @@ def coupled_model(case: Case) -> Case:
     return case.model_copy(update={"wall": _membrane(case.wall), "solver": solver})
 
 
-def _of_law(wall: HomogeneousWall, law: str) -> HomogeneousWall:
-    return wall.model_copy(update={"law": law})
+def _of_linear_laws(wall: WallLaw) -> dict[str, Wall]:
+    """Return a linear wall of one material by every such law; nothing for another wall."""
+    if not wall.linear or not isinstance(wall, HomogeneousWall):
+        return {}
+    stated = {key: getattr(wall, key) for key in HomogeneousWall.model_fields}
+    return {
+        name: law.model_construct(None, **stated | {"law": name})
+        for name, law in LAWS.items()
+        if law.linear and law.model_fields.keys() == stated.keys()
+    }
 
 
-def _membrane(wall: OwnWall | MembraneWall) -> MembraneWall:
+def _membrane(wall: Wall) -> MembraneWall:
     if isinstance(wall, MembraneWall):
         return wall
-    if isinstance(wall, TableWall):
-        raise ValidationError("wall: a membrane on a table needs a poisson_ratio; state law membrane")
     stated = {key: getattr(wall, key) for key in type(wall).model_fields}
-    return MembraneWall.model_construct(None, **(stated | {"law": "membrane", "base": wall.law}))
+    if "poisson_ratio" not in stated:
+        raise ValidationError(f"wall: a membrane on a {wall.law} needs a poisson_ratio; state law membrane")
+    return MembraneOnLaws.model_construct(None, **(stated | {"law": "membrane", "base": wall.law}))

@@ -1,0 +1,29 @@
+"""The compressible neo-Hookean tube."""
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from cases.arrays import Floats
+from cases.sections.wall_laws.hyperelastic import HyperelasticWall, Stresses
+
+
+class NeoHookeanWall(HyperelasticWall):
+    """A thick-walled tube of neo-Hookean material under finite strain."""
+
+    law: Literal["neo_hookean"]
+
+    febio_material: ClassVar[str] = "neo-Hookean"
+
+    @staticmethod
+    def stresses(lam: float, mu: float, r: Floats, t: Floats) -> Stresses:
+        """W = ½μ(λ_r² + λ_θ² − 2) − μ ln J + ½λ (ln J)², J = λ_r λ_θ (FEBio's compressible neo-Hookean)."""
+        volume = np.log(r * t)
+        push = lam * volume - mu
+        return Stresses(
+            mu * r + push / r,
+            mu * t + push / t,
+            mu + (lam - push) / (r * r),
+            lam / (r * t),
+            mu + (lam - push) / (t * t),
+        )
