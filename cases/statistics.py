@@ -9,10 +9,8 @@ class Statistic:
 
     Attributes
     ----------
-    name : str
-        Name in metrics and bands.
-    label : str
-        Words for people.
+    name, label : str
+        Name in metrics and bands; words for people.
     relative : bool
         Whether its error is a share of the reference; otherwise it has the quantity's unit.
     signed : bool
@@ -33,39 +31,30 @@ class Statistic:
         return self.words_with_quantity or self.label
 
 
-# what bands may limit
-JUDGED: dict[str, Statistic] = {
-    each.name: each
-    for each in (
-        Statistic("rms_error", "RMS error", signed=False),
-        Statistic("max_error", "largest error"),
-        Statistic("bias", "bias", words_with_quantity="mean error"),
-        Statistic("scatter", "scatter", signed=False, words_with_quantity="scatter of the error"),
-        Statistic("systolic_error", "error at systole", words_with_quantity="systolic error"),
-        Statistic("diastolic_error", "error at end diastole", words_with_quantity="diastolic error"),
-        Statistic("rms_difference", "RMS difference", relative=False),
-        Statistic("max_difference", "largest difference", relative=False),
-    )
-}
-# of single cells, of the cycle, and of what calcification changes
-DESCRIPTIVE: dict[str, Statistic] = {
-    each.name: each
-    for each in (
-        Statistic("value", "value"),
-        Statistic("cycle", "error over the cycle"),
-        Statistic("change", "change by calcification"),
-        Statistic("ratio", "ratio to the baseline"),
-    )
-}
-_FURTHER: dict[str, Statistic] = {
-    each.name: each
-    for each in (
-        Statistic("curved_rms_error", "RMS error against 3D with the section's edge taken round"),
-        Statistic("worst_cell", "RMS error of the worst cell"),
-    )
-}
-STATISTICS = JUDGED | DESCRIPTIVE | _FURTHER
-PLACED = JUDGED | DESCRIPTIVE  # statistics that reports have tables for
+def _table(*statistics: Statistic) -> dict[str, Statistic]:
+    return {statistic.name: statistic for statistic in statistics}
+
+
+JUDGED = _table(  # what bands may limit
+    Statistic("rms_error", "RMS error", signed=False),
+    Statistic("max_error", "largest error"),
+    Statistic("bias", "bias", words_with_quantity="mean error"),
+    Statistic("scatter", "scatter", signed=False, words_with_quantity="scatter of the error"),
+    Statistic("systolic_error", "error at systole", words_with_quantity="systolic error"),
+    Statistic("diastolic_error", "error at end diastole", words_with_quantity="diastolic error"),
+    Statistic("rms_difference", "RMS difference", relative=False),
+    Statistic("max_difference", "largest difference", relative=False),
+)
+PLACED = JUDGED | _table(  # what reports have tables for
+    Statistic("value", "value"),
+    Statistic("cycle", "error over the cycle"),
+    Statistic("change", "change by calcification"),
+    Statistic("ratio", "ratio to the baseline"),
+)
+STATISTICS = PLACED | _table(
+    Statistic("curved_rms_error", "RMS error against 3D with the section's edge taken round"),
+    Statistic("worst_cell", "RMS error of the worst cell"),
+)
 
 
 def statistic_of(name: str) -> Statistic:

@@ -143,7 +143,7 @@ class Provenance(Record):
     machine: dict[str, JsonValue]
     case: CaseFile
     inputs: tuple[InputFile, ...]
-    seeds: dict[str, int] = {}
+    seeds: dict[str, int] = Field(default_factory=dict)
     wall_times_s: dict[str, float]
     notes: tuple[str, ...]
     warnings: tuple[str, ...] = ()

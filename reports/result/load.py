@@ -8,14 +8,8 @@ import numpy as np
 import xarray as xr
 from pydantic import TypeAdapter
 
-from cases.results.comparison_file import (
-    CALCIFIED,
-    MODELS,
-    PROFILE_ERROR,
-    PROFILE_ERROR_CURVE,
-    WALL_STIFFNESS,
-    variable,
-)
+from cases.results import comparison_file
+from cases.results.comparison_file import CALCIFIED, MODELS, WALL_STIFFNESS, variable
 from cases.results.provenance import Provenance
 from reports.errors import ReportError
 from reports.result.consistency import check_consistency
@@ -144,7 +138,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
     check_consistency(directory, variants, attributes, metrics, provenance)
     columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
     states = [int(np.abs(dataset["time"].values - t).argmin()) for _, t in attributes.times]
-    fields = dataset[[*_both(FIELDS), PROFILE_ERROR, CALCIFIED]].load()
+    fields = dataset[[*_both(FIELDS), comparison_file.PROFILE_ERROR, CALCIFIED]].load()
     return Comparison(
         case=attributes.case,
         title=attributes.title,
@@ -164,7 +158,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
         curves=fields.isel(x=columns),
         profiles=read_profiles(path, dataset, columns, rows),
         maps=fields.isel(time=states),
-        error_curves=dataset[PROFILE_ERROR_CURVE].load(),
+        error_curves=dataset[comparison_file.PROFILE_ERROR_CURVE].load(),
         pressure_range_over_section=_pressure_range(fields[_both(("pressure",))]),
         wall_varies_around=_varies_around(dataset[WALL_STIFFNESS].load()),
         metrics=metrics,
