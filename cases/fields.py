@@ -1,13 +1,40 @@
 """One table that names every quantity: in case files, NetCDF output, metrics, figures and reports.
 
-A quantity's SI unit is what arrays and files hold; its display unit is what people read.
+A quantity's SI unit is what arrays and files hold; its display unit is what people read. A quantity that
+both models have says here how it is compared: names in bands, rows of metrics and words of reports follow.
 """
 
 from dataclasses import dataclass
 
+from cases.statistics import JUDGED
+
 CELL = ("time", "x", "phi")
 SECTION = ("time", "x")
 RAY = ("time", "x", "phi", "y")
+
+
+@dataclass(frozen=True)
+class Compared:
+    """How a quantity that both models have is compared.
+
+    Attributes
+    ----------
+    reads : tuple of str
+        Fields that it is computed from, by the function of its name in `validation.metrics.quantities`; empty
+        for a field of both models itself.
+    tabulated : bool
+        Whether its values at the chosen cells and instants have rows, with what calcification changes and
+        how sure the bias is. A number of the cycle always has.
+    pooled : bool
+        Whether its errors have rows: over all cells, and over the cycle at the chosen cells.
+    statistics : tuple of str
+        What is pooled, and what a band may limit.
+    """
+
+    reads: tuple[str, ...] = ()
+    tabulated: bool = True
+    pooled: bool = True
+    statistics: tuple[str, ...] = tuple(JUDGED)
 
 
 @dataclass(frozen=True)
@@ -28,6 +55,8 @@ class Field:
         Display value = stored value × display_factor.
     dims : tuple of str
         Dimensions of the stored array; empty for one number per cycle.
+    compared : Compared or None
+        How it is compared; None where bands do not judge it.
     """
 
     name: str
@@ -37,18 +66,23 @@ class Field:
     display_unit: str
     display_factor: float
     dims: tuple[str, ...]
+    compared: Compared | None = None
 
 
 def _table(*fields: Field) -> dict[str, Field]:
     return {field.name: field for field in fields}
 
 
+OF_MODELS = Compared()  # fields of both models, in all tables
+OF_BANDS = Compared(tabulated=False, pooled=False)
+OF_PRESSURE, OF_RADIUS = Compared(reads=("section_pressure",)), Compared(reads=("radius",))
+
 FIELDS = _table(
-    Field("pressure", "P", "pressure", "Pa", "kPa", 1e-3, CELL),
-    Field("radius", "R", "lumen radius", "m", "mm", 1e3, CELL),
-    Field("mean_velocity", "u", "mean velocity along the ray", "m s-1", "cm/s", 1e2, CELL),
-    Field("profile_exponent", "γ", "velocity-profile exponent", "1", "1", 1.0, CELL),
-    Field("sector_flow_rate", "q_φ", "flow rate through one sector", "m3 s-1", "cm³/s", 1e6, CELL),
+    Field("pressure", "P", "pressure", "Pa", "kPa", 1e-3, CELL, OF_MODELS),
+    Field("radius", "R", "lumen radius", "m", "mm", 1e3, CELL, OF_MODELS),
+    Field("mean_velocity", "u", "mean velocity along the ray", "m s-1", "cm/s", 1e2, CELL, OF_MODELS),
+    Field("sector_flow_rate", "q_φ", "flow rate through one sector", "m3 s-1", "cm³/s", 1e6, CELL, OF_MODELS),
+    Field("profile_exponent", "γ", "velocity-profile exponent", "1", "1", 1.0, CELL, OF_MODELS),
     Field(
         "sector_flow_share",
         "q_φ/q̄_φ",
@@ -57,10 +91,13 @@ FIELDS = _table(
         "1",
         1.0,
         CELL,
+        Compared(reads=("sector_flow_rate", "section_flow_rate"), tabulated=False),
     ),
     Field("azimuthal_flux", "W", "azimuthal flux 2∫v_φ dr", "m2 s-1", "cm²/s", 1e4, CELL),
-    Field("section_flow_rate", "q", "flow rate through the section", "m3 s-1", "cm³/s", 1e6, SECTION),
-    Field("section_pressure", "P̄", "mean pressure over the section", "Pa", "kPa", 1e-3, SECTION),
+    Field(
+        "section_flow_rate", "q", "flow rate through the section", "m3 s-1", "cm³/s", 1e6, SECTION, OF_MODELS
+    ),
+    Field("section_pressure", "P̄", "mean pressure over the section", "Pa", "kPa", 1e-3, SECTION, OF_MODELS),
     Field(
         "section_pressure_range",
         "ΔP_section",
@@ -70,16 +107,16 @@ FIELDS = _table(
         1.0,
         SECTION,
     ),
-    Field("axial_velocity", "v_x", "axial velocity", "m s-1", "cm/s", 1e2, RAY),
+    Field("axial_velocity", "v_x", "axial velocity", "m s-1", "cm/s", 1e2, RAY, OF_BANDS),
     Field("radial_velocity", "v_r", "radial velocity", "m s-1", "cm/s", 1e2, RAY),
     Field("azimuthal_velocity", "v_φ", "azimuthal velocity", "m s-1", "cm/s", 1e2, RAY),
     Field("profile_error", "ε_γ", "relative error of the closest profile", "1", "%", 1e2, CELL),
     Field("wall_stiffness", "β", "wall stiffness", "Pa m", "N/m", 1.0, ("x", "phi")),
-    Field("systolic_pressure", "P_sys", "systolic pressure", "Pa", "kPa", 1e-3, ()),
-    Field("diastolic_pressure", "P_dia", "diastolic pressure", "Pa", "kPa", 1e-3, ()),
-    Field("pulse_pressure", "P_sys − P_dia", "pulse pressure", "Pa", "kPa", 1e-3, ()),
-    Field("largest_radius", "R_max", "largest lumen radius", "m", "mm", 1e3, ()),
-    Field("least_radius", "R_min", "least lumen radius", "m", "mm", 1e3, ()),
+    Field("systolic_pressure", "P_sys", "systolic pressure", "Pa", "kPa", 1e-3, (), OF_PRESSURE),
+    Field("diastolic_pressure", "P_dia", "diastolic pressure", "Pa", "kPa", 1e-3, (), OF_PRESSURE),
+    Field("pulse_pressure", "P_sys − P_dia", "pulse pressure", "Pa", "kPa", 1e-3, (), OF_PRESSURE),
+    Field("largest_radius", "R_max", "largest lumen radius", "m", "mm", 1e3, (), OF_RADIUS),
+    Field("least_radius", "R_min", "least lumen radius", "m", "mm", 1e3, (), OF_RADIUS),
     Field(
         "largest_pressure_difference",
         "max ΔP",
@@ -88,6 +125,7 @@ FIELDS = _table(
         "Pa",
         1.0,
         (),
+        OF_PRESSURE,
     ),
     Field(
         "largest_radius_variation",
@@ -97,6 +135,7 @@ FIELDS = _table(
         "μm",
         1e6,
         (),
+        OF_RADIUS,
     ),
     Field(
         "phase_lag", "Δt", "lag of the reduced model's outlet flow behind the reference's", "s", "ms", 1e3, ()
@@ -118,25 +157,9 @@ FIELDS = _table(
     ),
     Field("kinetic_energy", "E_k", "kinetic energy of the mean flow", "J", "μJ", 1e6, ("time",)),
     Field("wall_energy", "E_w", "energy stored by the wall", "J", "μJ", 1e6, ("time",)),
-    Field(
-        "end_power",
-        "W_e",
-        "power of the inlet less that of the outlet",
-        "W",
-        "mW",
-        1e3,
-        ("time",),
-    ),
+    Field("end_power", "W_e", "power of the inlet less that of the outlet", "W", "mW", 1e3, ("time",)),
     Field("dissipated_power", "W_v", "power lost to viscosity", "W", "mW", 1e3, ("time",)),
-    Field(
-        "profile_power",
-        "W_α",
-        "power that the profile's shape takes",
-        "W",
-        "mW",
-        1e3,
-        ("time",),
-    ),
+    Field("profile_power", "W_α", "power that the profile's shape takes", "W", "mW", 1e3, ("time",)),
     Field(
         "energy_defect",
         "δ_E",

@@ -48,7 +48,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Row:
+class Timing:
     """One line of the table.
 
     Attributes
@@ -92,12 +92,12 @@ def timed_run(case: Case, end: float) -> Run:
     return Run(time.perf_counter() - wall, time.process_time() - cpu, stop.steps, stop.sweeps)
 
 
-def row_of(name: str, cores: int, case: Case, runs: Sequence[Run]) -> Row:
+def row_of(name: str, cores: int, case: Case, runs: Sequence[Run]) -> Timing:
     """Summarise the repetitions of one run."""
     cells = case.solver.n_x * case.solver.n_phi
     median = statistics.median(run.wall_s for run in runs)
     steps, sweeps = runs[-1].steps, runs[-1].sweeps
-    return Row(
+    return Timing(
         name,
         cores,
         cells,
@@ -111,7 +111,7 @@ def row_of(name: str, cores: int, case: Case, runs: Sequence[Run]) -> Row:
     )
 
 
-def implicit_row(variant: str, case: Case, repeat: int) -> Row:
+def implicit_row(variant: str, case: Case, repeat: int) -> Timing:
     """Scheme ``semi_implicit`` on one core; one more run before the measured ones warms the caches."""
     end = case.inlet.period * case.solver.cycles
     threads = numba.get_num_threads()
@@ -124,7 +124,7 @@ def implicit_row(variant: str, case: Case, repeat: int) -> Row:
     return row_of(f"semi_implicit, {variant}", 1, case, runs)
 
 
-def explicit_row(case: Case, quick: bool) -> Row:
+def explicit_row(case: Case, quick: bool) -> Timing:
     """Scheme ``godunov`` on two cores, once; ``quick`` takes fewer steps and extrapolates to all."""
     end, dt = case.inlet.period * case.solver.cycles, case.solver.time_step
     timed_run(case, 10 * dt)
@@ -135,7 +135,7 @@ def explicit_row(case: Case, quick: bool) -> Row:
     return replace(row, steps=steps, median_s=row.median_s * steps / row.steps, extrapolated=True)
 
 
-def process_row(path: Path, case: Case, repeat: int) -> Row:
+def process_row(path: Path, case: Case, repeat: int) -> Timing:
     """Time ``python -m solver`` as a whole process, with its kernels compiled and cached before."""
     seconds = []
     with tempfile.TemporaryDirectory() as folder:
@@ -148,10 +148,10 @@ def process_row(path: Path, case: Case, repeat: int) -> Row:
             if done.returncode:
                 raise SolverError(done.stderr.strip())
     cells, warm = case.solver.n_x * case.solver.n_phi, seconds[1:]
-    return Row("python -m solver, local", 1, cells, 0, 0, warm, [], statistics.median(warm), None, None)
+    return Timing("python -m solver, local", 1, cells, 0, 0, warm, [], statistics.median(warm), None, None)
 
 
-def measure(path: Path, repeat: int, quick: bool, shown: Callable[[str], None]) -> list[Row]:
+def measure(path: Path, repeat: int, quick: bool, shown: Callable[[str], None]) -> list[Timing]:
     """Measure all rows; ``shown`` is told what is measured next.
 
     Raises
@@ -175,7 +175,7 @@ def _rate(value: float | None) -> str:
     return "" if value is None else f"{value / 1e6:.1f}"
 
 
-def table_of(rows: Sequence[Row]) -> Table:
+def table_of(rows: Sequence[Timing]) -> Table:
     """Lay rows out for the terminal."""
     table = Table(
         title="Median of the repetitions; updates = cells × steps, sweeps = cells × sweeps",
@@ -200,7 +200,7 @@ def table_of(rows: Sequence[Row]) -> Table:
     return table
 
 
-def result_of(rows: Sequence[Row], path: Path, command: list[str]) -> dict[str, Any]:
+def result_of(rows: Sequence[Timing], path: Path, command: list[str]) -> dict[str, Any]:
     """Collect what is kept: the rows, and what measured them."""
     return {**provenance(path, [], command), "rows": [asdict(row) for row in rows]}
 

@@ -8,40 +8,27 @@ from pydantic import ValidationInfo, field_validator
 
 from cases.errors import QuantityError, RefusedValueError
 from cases.fields import FIELDS
+from cases.quantities import compared_quantities, statistics_of
 from cases.sections.base import Section
-from cases.values.kinds import Context, ValueKind, Words, distinct, one_of, refused, whole_number, words_of
+from cases.statistics import JUDGED
+from cases.values.kinds import (
+    Context,
+    ValueKind,
+    Words,
+    distinct,
+    refused,
+    registered,
+    whole_number,
+    words_of,
+)
 from cases.values.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity, parse_ratio
 from cases.values.wording import choices, not_one_of
 
-# quantities that the reduced model and a reference both have
-ComparedQuantity = Literal[
-    "pressure",
-    "radius",
-    "mean_velocity",
-    "profile_exponent",
-    "sector_flow_rate",
-    "sector_flow_share",
-    "section_flow_rate",
-    "section_pressure",
-    "axial_velocity",
-    "systolic_pressure",
-    "diastolic_pressure",
-    "pulse_pressure",
-    "largest_radius",
-    "least_radius",
-    "largest_pressure_difference",
-    "largest_radius_variation",
-]
-RelativeStatistic = Literal["rms_error", "max_error", "bias", "scatter", "systolic_error", "diastolic_error"]
-AbsoluteStatistic = Literal["rms_difference", "max_difference"]
-Statistic = RelativeStatistic | AbsoluteStatistic
 Event = Literal["systole", "first trough", "second trough", "end diastole"]
 
 # a constant inlet has no largest and no least value
 EVENTS_OF_A_CONSTANT: tuple[Event, ...] = ("end diastole",)
 
-COMPARED_QUANTITIES = words_of(ComparedQuantity)
-RELATIVE_STATISTICS = words_of(RelativeStatistic)
 EVENTS = words_of(Event)
 
 # cells of a grid with 120 sections and 48 rows at which results are tabulated
@@ -134,9 +121,10 @@ class Band(Section):
     Attributes
     ----------
     quantity : str
-        A name of `cases.fields.FIELDS`.
+        A name of `cases.fields.FIELDS` that is compared.
     statistic : str
-        What is limited. `*_difference` statistics carry the quantity's unit, all others are relative.
+        What is limited, of `cases.statistics.JUDGED`. `*_difference` statistics carry
+        the quantity's unit, all others are relative.
     limit : float
         Greater than 0; a ratio, or in the quantity's SI unit.
     reason : str
@@ -145,8 +133,8 @@ class Band(Section):
         Variants that the band judges; all of them if None.
     """
 
-    quantity: Annotated[ComparedQuantity, one_of(ComparedQuantity)]
-    statistic: Annotated[Statistic, one_of(Statistic)]
+    quantity: Annotated[str, registered(compared_quantities)]
+    statistic: Annotated[str, registered(lambda: tuple(JUDGED))]
     limit: Annotated[float, LIMIT]
     reason: Words
     variants: tuple[VariantName, ...] | None = None
@@ -154,7 +142,15 @@ class Band(Section):
     @property
     def relative(self) -> bool:
         """Whether the limit is a ratio; otherwise it has the quantity's SI unit."""
-        return self.statistic in RELATIVE_STATISTICS
+        return JUDGED[self.statistic].relative
+
+    @field_validator("statistic")
+    @classmethod
+    def _statistic(cls, name: str, info: ValidationInfo) -> str:
+        quantity = info.data.get("quantity")
+        if quantity is not None and name not in statistics_of(quantity):
+            raise RefusedValueError(not_one_of(name, statistics_of(quantity)))
+        return name
 
     @field_validator("limit")
     @classmethod
@@ -162,7 +158,7 @@ class Band(Section):
         quantity, statistic = info.data.get("quantity"), info.data.get("statistic")
         if quantity is None or statistic is None:
             return math.nan  # what the limit means is unknown; the band is refused for that key already
-        if statistic in RELATIVE_STATISTICS:
+        if JUDGED[statistic].relative:
             return _relative_limit(stated)
         return _absolute_limit(stated, FIELDS[quantity].unit)
 

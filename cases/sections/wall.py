@@ -9,7 +9,7 @@ from pydantic import Tag, create_model, model_validator
 from cases.sections.base import Section
 from cases.sections.wall_laws import LAWS
 from cases.sections.wall_laws.law import PoissonRatio, WallLaw
-from cases.values.kinds import one_of, one_of_words, refused
+from cases.values.kinds import one_of, refused, registered
 
 Supports = Literal["quarters", "free"]
 
@@ -31,7 +31,7 @@ class MembraneWall(Section):
     """
 
     law: Literal["membrane"]
-    base: Annotated[str, one_of_words(tuple(LAWS))]
+    base: Annotated[str, registered(lambda: tuple(LAWS))]
     poisson_ratio: PoissonRatio
     supports: Annotated[Supports, one_of(Supports)] = "quarters"
 

@@ -143,18 +143,19 @@ def text(allowed: str, pattern: str) -> ValueKind:
 
 def one_of(literal: object) -> ValueKind:
     """Return the kind of words that a `Literal`, or a union of such, lists."""
-    return one_of_words(words_of(literal))
+    words = words_of(literal)
+    return registered(lambda: words)
 
 
-def one_of_words(words: tuple[str, ...]) -> ValueKind:
-    """Return the kind of these words."""
+def registered(names: Callable[[], tuple[str, ...]]) -> ValueKind:
+    """Return the kind of words that a registry holds at the time when a value is checked."""
 
     def parse(value: object, _context: Context | None) -> str:
-        if not isinstance(value, str) or value not in words:
-            raise RefusedValueError(not_one_of(value, words))
+        if not isinstance(value, str) or value not in names():
+            raise RefusedValueError(not_one_of(value, names()))
         return value
 
-    return ValueKind(parse, choices(words), {"enum": list(words)})
+    return ValueKind(parse, choices(names()), {"enum": list(names())})
 
 
 def words_of(literal: object) -> tuple[str, ...]:

@@ -7,14 +7,16 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
+from cases.results.comparison_file import MODELS, variable
+from cases.results.metric_row import MetricRow
+from cases.statistics import statistic_of
 from reports.html.packed import pack
 from reports.result.load import Comparison
-from reports.result.metrics import DIFFERENCE_STATISTICS, Metrics, Row
+from reports.result.metrics import Metrics
 from reports.sections.artery import has_shape, view
 from reports.wording.numbers import DIFFERENCE_UNITS
 from reports.wording.words import field_of, quantity_words, statistic_words
 
-MODELS = ("reference", "rom")
 ON_CELLS = ("pressure", "radius", "sector_flow_rate", "profile_exponent")
 LARGEST_EXPONENT = 100.0  # beyond, a profile is flat to the eye, and one such value would coarsen all others
 
@@ -81,7 +83,7 @@ def _both(comparison: Comparison, field: Field, data: Any) -> dict[str, Any]:
         "difference_factor": factor / field.display_factor,
         **{
             model: [
-                pack(_shown(field, data[f"{model}_{field.name}"].sel(variant=name).values)).plain()
+                pack(_shown(field, data[variable(model, field.name)].sel(variant=name).values)).plain()
                 for name in comparison.variants
             ]
             for model in MODELS
@@ -104,7 +106,7 @@ def _metrics(metrics: Metrics) -> dict[str, Any]:
         "statistic": _coded([statistic_words(row.statistic) for row in metrics.rows]),
         "status": _coded([row.status for row in metrics.rows]),
         "unit": _coded([_display(row)[0] for row in metrics.rows]),
-        "relative": [row.statistic not in DIFFERENCE_STATISTICS for row in metrics.rows],
+        "relative": [statistic_of(row.statistic).relative for row in metrics.rows],
         **{name: [_number(row, name) for row in metrics.rows] for name in _NUMBERS},
     }
 
@@ -112,15 +114,15 @@ def _metrics(metrics: Metrics) -> dict[str, Any]:
 _NUMBERS = ("i", "j", "t_s", "reference", "rom", "error", "band")
 
 
-def _display(row: Row) -> tuple[str, float]:
+def _display(row: MetricRow) -> tuple[str, float]:
     """Return the unit that people read a row's values in, and display over stored value."""
     field = field_of(row.quantity, row.unit)
     return (field.display_unit, field.display_factor) if row.unit == field.unit else (row.unit, 1.0)
 
 
-def _number(row: Row, name: str) -> float | None:
+def _number(row: MetricRow, name: str) -> float | None:
     value = getattr(row, name)
-    relative = name in ("error", "band") and row.statistic not in DIFFERENCE_STATISTICS
+    relative = name in ("error", "band") and statistic_of(row.statistic).relative
     if name in ("reference", "rom", "error", "band") and value is not None and not relative:
         value *= _display(row)[1]
     return float(f"{value:.6g}") if isinstance(value, float) else value

@@ -5,10 +5,10 @@ import hashlib
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from cases.results.provenance import Provenance
 from reports.errors import ReportError
 from reports.result.dataset import Attributes
 from reports.result.metrics import Metrics
-from reports.result.provenance_file import Provenance
 
 
 def check_consistency(

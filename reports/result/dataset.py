@@ -10,36 +10,12 @@ import numpy as np
 import xarray as xr
 
 from cases.arrays import Floats
+from cases.results.comparison_file import MODELS, PROFILE_ERROR, PROFILE_ERROR_CURVE, variable, variables
 from reports.errors import ReportError
 
-MODELS = ("reference", "rom")
-PROFILES = ("reference_axial_velocity", "rom_axial_velocity")
-
-_CELL = ("variant", "time", "x", "phi")
-_SECTION = ("variant", "time", "x")
-_RAY = (*_CELL, "y")
-_BOTH = {
-    "pressure": _CELL,
-    "radius": _CELL,
-    "mean_velocity": _CELL,
-    "profile_exponent": _CELL,
-    "sector_flow_rate": _CELL,
-    "section_flow_rate": _SECTION,
-    "section_pressure": _SECTION,
-    "axial_velocity": _RAY,
-}
-_VARIABLES: dict[str, tuple[str, ...]] = {
-    **{f"{model}_{name}": dims for model in MODELS for name, dims in _BOTH.items()},
-    "reference_profile_error": _CELL,
-    "reference_profile_error_curve": ("variant", "compare_time", "compare_x", "compare_phi", "exponent"),
-    "wall_stiffness": ("variant", "x", "phi"),
-    "calcified": ("variant", "x", "phi"),
-}
-_MAY_BE_INFINITE = ("reference_profile_exponent", "rom_profile_exponent")  # plug flow
-_MAY_BE_ABSENT = (  # where nothing flows there is no profile
-    "reference_profile_error",
-    "reference_profile_error_curve",
-)
+PROFILES = tuple(variable(model, "axial_velocity") for model in MODELS)
+_MAY_BE_INFINITE = tuple(variable(model, "profile_exponent") for model in MODELS)  # plug flow
+_MAY_BE_ABSENT = (PROFILE_ERROR, PROFILE_ERROR_CURVE)  # where nothing flows there is no profile
 _UNREADABLE = (OSError, RuntimeError, TypeError, ValueError)  # what xarray and netCDF4 raise for broken data
 _AXES = ("time", "x", "phi", "y")
 _TEXTS = ("case", "title", "baseline", "compare_time_names", "case_yaml")
@@ -80,12 +56,12 @@ def _check_names(path: Path, dataset: xr.Dataset) -> None:
     for what, missing in (
         ("dimension", [name for name in dimensions if name not in dataset.sizes]),
         ("coordinate", [name for name in dimensions if name not in dataset.coords]),
-        ("variable", [name for name in _VARIABLES if name not in dataset.data_vars]),
+        ("variable", [name for name in variables() if name not in dataset.data_vars]),
         ("attribute", [name for name in (*_TEXTS, *_NUMBERS) if name not in dataset.attrs]),
     ):
         if missing:
             raise ReportError(f"{path}: without {what} {', '.join(missing)}")
-    for name, dims in _VARIABLES.items():
+    for name, dims in variables().items():
         if dataset[name].dims != dims:
             raise ReportError(f"{path}: {name} has dimensions {dataset[name].dims}; {dims} are expected")
 
@@ -105,7 +81,7 @@ def _check_axes(path: Path, dataset: xr.Dataset) -> None:
 
 
 def _check_values(path: Path, dataset: xr.Dataset) -> None:
-    for name in _VARIABLES:
+    for name in variables():
         if name in _MAY_BE_ABSENT:
             continue
         if name.startswith("reference_") and dataset.attrs.get("sparse_reference"):

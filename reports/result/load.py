@@ -6,12 +6,16 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from pydantic import TypeAdapter
 
+from cases.results import comparison_file
+from cases.results.comparison_file import CALCIFIED, MODELS, WALL_STIFFNESS, variable
+from cases.results.provenance import Provenance
 from reports.errors import ReportError
 from reports.result.consistency import check_consistency
-from reports.result.dataset import MODELS, opened, read_attributes, read_profiles
+from reports.result.dataset import opened, read_attributes, read_profiles
 from reports.result.metrics import Metrics, read_metrics
-from reports.result.provenance_file import Provenance, read_provenance
+from reports.result.strict_json import read_json
 
 FIELDS = ("pressure", "radius", "sector_flow_rate", "section_flow_rate", "profile_exponent")
 
@@ -121,7 +125,7 @@ def load(directory: Path) -> Comparison:
     for path in paths.values():
         if not path.is_file():
             raise ReportError(f"{path}: no such file; a finished comparison has one")
-    provenance = read_provenance(paths["provenance.json"])
+    provenance = read_json(paths["provenance.json"], TypeAdapter(Provenance))
     metrics = read_metrics(paths["metrics.json"])
     with opened(paths["comparison.nc"]) as dataset:
         return _comparison(directory, dataset, metrics, provenance)
@@ -134,7 +138,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
     check_consistency(directory, variants, attributes, metrics, provenance)
     columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
     states = [int(np.abs(dataset["time"].values - t).argmin()) for _, t in attributes.times]
-    fields = dataset[[*_both(FIELDS), "reference_profile_error", "calcified"]].load()
+    fields = dataset[[*_both(FIELDS), comparison_file.PROFILE_ERROR, CALCIFIED]].load()
     return Comparison(
         case=attributes.case,
         title=attributes.title,
@@ -154,16 +158,16 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
         curves=fields.isel(x=columns),
         profiles=read_profiles(path, dataset, columns, rows),
         maps=fields.isel(time=states),
-        error_curves=dataset["reference_profile_error_curve"].load(),
+        error_curves=dataset[comparison_file.PROFILE_ERROR_CURVE].load(),
         pressure_range_over_section=_pressure_range(fields[_both(("pressure",))]),
-        wall_varies_around=_varies_around(dataset["wall_stiffness"].load()),
+        wall_varies_around=_varies_around(dataset[WALL_STIFFNESS].load()),
         metrics=metrics,
         provenance=provenance,
     )
 
 
 def _both(names: Sequence[str]) -> list[str]:
-    return [f"{model}_{name}" for model in MODELS for name in names]
+    return [variable(model, name) for model in MODELS for name in names]
 
 
 def _pressure_range(pressure: xr.Dataset) -> xr.Dataset:

@@ -1,59 +1,24 @@
 """The rows of metrics.json, found again by what they are about."""
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass as plain_dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field, FiniteFloat, TypeAdapter
-from pydantic.dataclasses import dataclass
+from pydantic import TypeAdapter
 
+from cases.results.metric_row import MetricRow, Model, judged
 from reports.errors import ReportError
 from reports.result.strict_json import read_json
 
-DIFFERENCE_STATISTICS = ("rms_difference", "max_difference")
 
-Status = Literal["", "OK", "FAIL", "MISSING"]
-Model = Literal["reference", "rom"]
-Number = Annotated[int, Field(ge=1)]
-Limit = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-
-
-@dataclass(frozen=True, config=ConfigDict(strict=True))
-class Row:
-    """One figure of the comparison; numbers are SI, errors relative unless the statistic is a difference."""
-
-    case: str
-    variant: str
-    quantity: str
-    statistic: str
-    i: Number | None
-    j: Number | None
-    t_s: FiniteFloat | None
-    rom: FiniteFloat | None
-    reference: FiniteFloat | None
-    error: FiniteFloat | None
-    unit: str
-    band: Limit | None
-    status: Status
-
-    @property
-    def ratio(self) -> float:
-        """|error| over its band's limit; infinite for a limit of zero, NaN without an error."""
-        if self.error is None or self.band is None:
-            return math.nan
-        return abs(self.error) / self.band if self.band else math.inf
-
-
-@plain_dataclass(frozen=True)
+@dataclass(frozen=True)
 class Metrics:
     """All rows, and those without a band by (variant, quantity, statistic, i, j, t)."""
 
-    rows: tuple[Row, ...]
-    index: dict[tuple[object, ...], Row]
+    rows: tuple[MetricRow, ...]
+    index: dict[tuple[object, ...], MetricRow]
 
-    def bands(self) -> tuple[Row, ...]:
+    def bands(self) -> tuple[MetricRow, ...]:
         """Rows that judge a declared band."""
         return tuple(row for row in self.rows if row.status)
 
@@ -65,11 +30,11 @@ class Metrics:
         i: int | None = None,
         j: int | None = None,
         t_s: float | None = None,
-    ) -> Row | None:
+    ) -> MetricRow | None:
         """Return the one row about this, or None where the comparison has none."""
         return self.index.get((variant, quantity, statistic, i, j, _instant(t_s)))
 
-    def largest_row(self, variant: str, quantity: str, model: Model) -> Row | None:
+    def largest_row(self, variant: str, quantity: str, model: Model) -> MetricRow | None:
         """Return the row of a model's largest value, which may name the cell where it was found."""
         for row in self.rows:
             about = (row.variant, row.quantity, row.statistic) == (variant, quantity, "largest")
@@ -87,7 +52,7 @@ class Metrics:
         ]
         return max(errors, default=None)
 
-    def pooled(self, statistic: str) -> Iterator[Row]:
+    def pooled(self, statistic: str) -> Iterator[MetricRow]:
         """Rows of a statistic over all cells and states (a maximum names where it was found)."""
         for row in self.rows:
             whole = row.t_s is not None if statistic.startswith("max_") else row.i is None
@@ -95,7 +60,7 @@ class Metrics:
                 yield row
 
 
-_ROWS = TypeAdapter(tuple[Row, ...])
+_ROWS = TypeAdapter(tuple[MetricRow, ...])
 
 
 def read_metrics(path: Path) -> Metrics:
@@ -111,24 +76,16 @@ def read_metrics(path: Path) -> Metrics:
     if not rows:
         raise ReportError(f"{path}: without any row; a finished comparison has some")
     for number, row in enumerate(rows, start=1):
-        if row.status != judged(row):
+        verdict = judged(row.error, row.band)
+        if row.status != verdict:
             raise ReportError(
                 f"{path}: row {number} ({row.variant}, {row.quantity}, {row.statistic}): status is "
-                f"{row.status!r}, but an error of {row.error} with a band of {row.band} gives {judged(row)!r}"
+                f"{row.status!r}, but an error of {row.error} with a band of {row.band} gives {verdict!r}"
             )
-    index: dict[tuple[object, ...], Row] = {
+    index: dict[tuple[object, ...], MetricRow] = {
         (r.variant, r.quantity, r.statistic, r.i, r.j, _instant(r.t_s)): r for r in rows if not r.status
     }
     return Metrics(rows, index)
-
-
-def judged(row: Row) -> Status:
-    """Judge a row by its own numbers: "" where no band is declared."""
-    if row.band is None:
-        return ""
-    if row.error is None:
-        return "MISSING"
-    return "OK" if abs(row.error) <= row.band else "FAIL"
 
 
 def _instant(t_s: float | None) -> float | None:

@@ -1,43 +1,16 @@
 """What each part of the coupled model buys: a section of the report where `ablation.json` is there."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from pydantic import TypeAdapter
 
+from cases.results.ablation import MEASURES, AblationRow
 from reports.blocks import Bullets, Column, Paragraph, Section, Table
 from reports.result.strict_json import read_json
 from reports.wording.numbers import ABSENT, fixed, percent, unsigned
 
-
-@dataclass(frozen=True)
-class _Row:
-    """One model in one variant: relative errors against 3D, CPU seconds, what stopped it."""
-
-    variant: str
-    model: str
-    radius_rms: float | None
-    radius_max: float | None
-    pressure_rms: float | None
-    section_flow_rms: float | None
-    sector_share_rms: float | None
-    sector_share_max: float | None
-    thesis_sector_max: float | None
-    run_s: float
-    failure: str
-
-
-_ROWS = TypeAdapter(list[_Row])
-_COLUMNS = {
-    "radius_rms": ("RMS", "lumen radius"),
-    "radius_max": ("largest", "lumen radius"),
-    "pressure_rms": ("RMS", "pressure"),
-    "section_flow_rms": ("RMS", "section flow"),
-    "sector_share_rms": ("RMS", "share of a sector"),
-    "sector_share_max": ("largest", "share of a sector"),
-    "thesis_sector_max": ("largest", "thesis's sectors"),
-}
+_ROWS = TypeAdapter(list[AblationRow])
 _SAID = {"radius_rms": "the lumen radius", "sector_share_rms": "a sector's share of the flow"}
 _TINY = 5e-5  # an error that two decimals of a percentage show as zero
 
@@ -55,7 +28,9 @@ def ablation_section(directory: Path) -> Section | None:
         return None
     rows = read_json(path, _ROWS)
     columns = {
-        name: words for name, words in _COLUMNS.items() if any(getattr(row, name) is not None for row in rows)
+        name: measure
+        for name, measure in MEASURES.items()
+        if any(getattr(row, name) is not None for row in rows)
     }
     table = Table(
         "ablation",
@@ -65,7 +40,7 @@ def ablation_section(directory: Path) -> Section | None:
         (
             Column("variant"),
             Column("model", "prose"),
-            *(Column(title, "number", group) for title, group in columns.values()),
+            *(Column(each.statistic, "number", each.of) for each in columns.values()),
             Column("CPU s", "number"),
         ),
         tuple(_texts(row, columns) for row in rows),
@@ -82,7 +57,7 @@ def ablation_section(directory: Path) -> Section | None:
     return Section("ablation", "What each part of the model buys", (Paragraph(words), *found, table))
 
 
-def _said(rows: Sequence[_Row], variant: str) -> str:
+def _said(rows: Sequence[AblationRow], variant: str) -> str:
     """Say how far the last model's RMS errors are from the first one's; "" where nothing can be said."""
     ran = [row for row in rows if row.variant == variant and not row.failure]
     if len(ran) < 2:
@@ -104,7 +79,7 @@ def _size(error: float) -> str:
     return unsigned(percent(error))
 
 
-def _texts(row: _Row, columns: Iterable[str]) -> tuple[str, ...]:
+def _texts(row: AblationRow, columns: Iterable[str]) -> tuple[str, ...]:
     model = f"{row.model} (failed: {row.failure})" if row.failure else row.model
     errors = (
         unsigned(text) if name.endswith("_rms") else text

@@ -2,9 +2,9 @@
 
 from collections.abc import Callable
 
+from cases.results.metric_row import MetricRow, Model
 from reports.blocks import Block, Column, Paragraph, Section, Table
 from reports.result.load import Comparison
-from reports.result.metrics import Model, Row
 from reports.sections import further
 from reports.sections.cells import chunks
 from reports.wording.numbers import ABSENT, SPACE, fixed, rounded, share, with_unit
@@ -30,7 +30,7 @@ def _ratio(value: float | None) -> str:
 def _dominance_tables(comparison: Comparison, quantity: str, model: str = "3D") -> tuple[Table, ...]:
     """Return the ratio of a model at the shown cells, a line per variant and row j; 2D where it has one."""
 
-    def value(row: Row | None) -> float | None:
+    def value(row: MetricRow | None) -> float | None:
         return None if row is None else row.reference if model == "3D" else row.rom
 
     tables = []
@@ -134,7 +134,7 @@ def _implied_sentence(comparison: Comparison) -> str:
     )
 
 
-def _at_edge(comparison: Comparison, row: Row) -> bool:
+def _at_edge(comparison: Comparison, row: MetricRow) -> bool:
     """Whether a row's cell or a neighbour along x differs from it in being calcified."""
     if row.i is None or row.j is None:
         return False

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 
+from cases.results.metric_row import MetricRow
 from reports.blocks import Column, Table
 from reports.result.load import Comparison
-from reports.result.metrics import Row
 from reports.wording.numbers import DIFFERENCE_UNITS, decimals_for, fixed
 from reports.wording.words import field_of, instant
 
@@ -49,7 +49,7 @@ def cell_tables(
     numbers = [n * factor for row in present for n in (row.reference, row.rom) if n is not None]
     decimals = decimals_for(numbers, 4 if statistic == "value" else 3, most=6 if statistic == "value" else 3)
 
-    def pair(row: Row | None) -> tuple[str, str]:
+    def pair(row: MetricRow | None) -> tuple[str, str]:
         both = (row.reference, row.rom) if row else (None, None)
         three, two = (None if n is None else n * factor for n in both)
         return fixed(three, decimals), fixed(two, decimals)

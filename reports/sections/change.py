@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from cases.fields import FIELDS, Field
+from cases.results.metric_row import MetricRow
 from reports.blocks import Block, Column, Paragraph, Section, Subsection, Table
 from reports.result.load import Comparison
-from reports.result.metrics import Row
 from reports.sections import change_apart
 from reports.sections.cells import cell_tables
 from reports.wording.numbers import (
@@ -39,9 +39,9 @@ def _cycle_fields(comparison: Comparison) -> list[Field]:
 class _CycleLine:
     """One quantity of the whole cycle in one variant: its value and what became of the baseline's."""
 
-    value: Row
-    change: Row | None
-    ratio: Row | None
+    value: MetricRow
+    change: MetricRow | None
+    ratio: MetricRow | None
 
 
 def _cycle_lines(comparison: Comparison, field: Field) -> list[_CycleLine]:
@@ -89,7 +89,7 @@ def _cycle_table(comparison: Comparison) -> Table | None:
     return Table("cycle-quantities", f"{caption}.", tuple(columns), tuple(rows), rule_by=0)
 
 
-def _both(row: Row | None, factor: float = 1.0) -> tuple[float | None, float | None]:
+def _both(row: MetricRow | None, factor: float = 1.0) -> tuple[float | None, float | None]:
     """3D and 2D of a row, in display units."""
     if row is None:
         return None, None

@@ -1,8 +1,8 @@
 """What the 3D simulation took beside the 2D model, and whether its own records confirm its plot file."""
 
+from cases.results.provenance import ReducedModelSettings, SimulationCost
 from reports.blocks import Column, Table
 from reports.result.load import Comparison
-from reports.result.provenance_file import ReducedModelSettings, SimulationCost
 from reports.wording.numbers import ABSENT, SPACE, rounded, with_unit
 
 

@@ -7,11 +7,11 @@ from functools import partial
 import numpy as np
 
 from cases.arrays import Flags, Floats
+from cases.results.metric_row import MetricRow
 from reports.blocks import Figure
 from reports.figures.curves import REFERENCE_COLOUR, ROM_COLOUR, small_multiples
 from reports.figures.panels import Curves, PanelRow
 from reports.result.load import Comparison
-from reports.result.metrics import Row
 from reports.sections.cells import chunks
 from reports.wording.numbers import SPACE, fixed, listed, percent, unsigned
 from reports.wording.tabular import comma_separated
@@ -86,7 +86,7 @@ def _price(comparison: Comparison, variant: str, lines: Sequence[_Line]) -> str:
     )
 
 
-def _cost(row: Row) -> float:
+def _cost(row: MetricRow) -> float:
     return (row.rom or 0.0) - (row.reference or 0.0)
 
 

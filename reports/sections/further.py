@@ -1,13 +1,14 @@
 """Figures of the whole artery that no other table of the report has a place for."""
 
+from cases.results.metric_row import MetricRow
+from cases.statistics import PLACED
 from reports.blocks import Column, Table
 from reports.result.load import Comparison
-from reports.result.metrics import Row
 from reports.wording.numbers import ABSENT, percent, rounded, with_unit
-from reports.wording.words import STATISTICS, field_of, place, quantity_words, statistic_words
+from reports.wording.words import field_of, place, quantity_words, statistic_words
 
 _BY_CELL_AND_STATE = ("plane_integral", "prescribed_inflow")
-_PLACED = ("bias_low", "bias_high", "change_rms", "cost")  # statistics that have tables of their own
+_WITH_TABLES = ("bias_low", "bias_high", "change_rms", "cost")  # statistics that have tables of their own
 
 
 def table(comparison: Comparison, placed: frozenset[str]) -> Table | None:
@@ -16,8 +17,8 @@ def table(comparison: Comparison, placed: frozenset[str]) -> Table | None:
         _line(row)
         for row in comparison.metrics.rows
         if not row.status
-        and row.statistic not in STATISTICS
-        and row.statistic not in (*_BY_CELL_AND_STATE, *_PLACED)
+        and row.statistic not in PLACED
+        and row.statistic not in (*_BY_CELL_AND_STATE, *_WITH_TABLES)
         and (row.statistic != "largest" or row.quantity not in placed)
         and (row.i is None or row.statistic == "largest")
         and (row.reference is not None or row.error is not None)
@@ -41,7 +42,7 @@ def table(comparison: Comparison, placed: frozenset[str]) -> Table | None:
     )
 
 
-def _line(row: Row) -> tuple[str, ...]:
+def _line(row: MetricRow) -> tuple[str, ...]:
     field = field_of(row.quantity, row.unit)
     shown = field if row.unit == field.unit else field_of("", row.unit)  # a ratio has no unit
 

@@ -1,8 +1,8 @@
 """The errors over all cells and states, a line for each quantity and variant."""
 
+from cases.results.metric_row import MetricRow
 from reports.blocks import Column, Table
 from reports.result.load import Comparison
-from reports.result.metrics import Row
 from reports.wording.numbers import ABSENT, DIFFERENCE_UNITS, SPACE, percent, rounded, unsigned, with_unit
 from reports.wording.words import place, quantity_words
 
@@ -12,7 +12,7 @@ _ABSOLUTE = "rms_difference"
 
 def table(comparison: Comparison) -> Table | None:
     """Return the table; None where nothing was pooled. Quantities with the same figures share a line."""
-    found: dict[tuple[str, str], dict[str, Row]] = {}
+    found: dict[tuple[str, str], dict[str, MetricRow]] = {}
     for statistic in (*_STATISTICS, _ABSOLUTE):
         for row in comparison.metrics.pooled(statistic):
             found.setdefault((row.variant, row.quantity), {})[statistic] = row
@@ -56,12 +56,12 @@ def table(comparison: Comparison) -> Table | None:
     )
 
 
-def _round_off(row: Row) -> bool:
+def _round_off(row: MetricRow) -> bool:
     """Whether a largest error is shown as zero, so that its place says nothing."""
     return row.error is not None and percent(row.error) == percent(0.0)
 
 
-def _figures(by: dict[str, Row], interval: str) -> tuple[str, ...]:
+def _figures(by: dict[str, MetricRow], interval: str) -> tuple[str, ...]:
     """Bias and its interval, scatter, RMS and largest error as text."""
     texts = [percent(by[name].error if name in by else None) for name in _STATISTICS]
     return (
@@ -74,7 +74,7 @@ def _figures(by: dict[str, Row], interval: str) -> tuple[str, ...]:
     )
 
 
-def _difference(row: Row | None) -> str:
+def _difference(row: MetricRow | None) -> str:
     """RMS of 2D − 3D in the unit that differences are shown in."""
     if row is None or row.error is None:
         return ABSENT

@@ -2,9 +2,9 @@
 
 from collections import Counter
 
+from cases.results.metric_row import MetricRow, Status
 from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Section, Table, Warnings
 from reports.result.load import Comparison
-from reports.result.metrics import Row, Status
 from reports.sections import pooled, trust
 from reports.wording.numbers import ABSENT, counted, listed, rounded
 from reports.wording.words import limit, measure, place, quantity_words, statistic_words
@@ -12,7 +12,7 @@ from reports.wording.words import limit, measure, place, quantity_words, statist
 _ORDER = {"FAIL": 0, "MISSING": 1, "OK": 2}
 
 
-def worst_first(rows: tuple[Row, ...]) -> list[Row]:
+def worst_first(rows: tuple[MetricRow, ...]) -> list[MetricRow]:
     """Bands that fail by how far, then those that could not be judged, then those that hold by how close."""
     return sorted(rows, key=lambda r: (_ORDER[r.status], -r.ratio if r.error is not None else 0.0))
 
@@ -78,7 +78,7 @@ def by_variant(comparison: Comparison) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _against_limit(row: Row) -> str:
+def _against_limit(row: MetricRow) -> str:
     return (
         f"{statistic_words(row.statistic)} of {quantity_words(row.quantity)} {_error_text(row)}, "
         f"limit {limit(row)}"
@@ -118,7 +118,7 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _error_text(row: Row) -> str:
+def _error_text(row: MetricRow) -> str:
     """Write the error with as many decimals as it takes to tell it from its limit."""
     for decimals in range(2, 7):
         text = measure(row, row.error, decimals)
@@ -127,7 +127,7 @@ def _error_text(row: Row) -> str:
     return text
 
 
-def reason(comparison: Comparison, row: Row) -> str:
+def reason(comparison: Comparison, row: MetricRow) -> str:
     """Return the reason declared with the band that a row judges; "" if none is known."""
     for band in comparison.provenance.bands:
         same = (band.quantity, band.statistic, band.limit) == (row.quantity, row.statistic, row.band)

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cases.results.metric_row import Status
+from cases.results.sweep import KeptOutput, VariedParameter
 from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, Table, Warnings
-from reports.result.metrics import Status
 from reports.sweep.held import Held, sentence
 from reports.sweep.load import FAILED, Sweep
-from reports.sweep.study_file import Output, Parameter
 from reports.sweep.words import DESIGNS, amount, ends, is_error
 from reports.wording.numbers import ABSENT, counted, listed, rounded, share
 
@@ -79,7 +79,7 @@ def _unknown(sweep: Sweep) -> tuple[str, ...]:
     return (*said, _AGAINST.get(sweep.study.against or "", nothing))
 
 
-def _range(sweep: Sweep, parameter: Parameter) -> str:
+def _range(sweep: Sweep, parameter: VariedParameter) -> str:
     values = sweep.samples[parameter.name].to_numpy(dtype=float)
     return ends(parameter, float(values.min()), float(values.max()))
 
@@ -172,7 +172,7 @@ def failures_section(sweep: Sweep) -> Section:
     return Section("failures", title, (table,))
 
 
-def _drawn(parameter: Parameter) -> str:
+def _drawn(parameter: VariedParameter) -> str:
     """Say what values a parameter takes."""
     if parameter.values is not None and len(parameter.values) <= 8:
         listed_values = ", ".join(rounded(v * parameter.display_factor, 4) for v in parameter.values)
@@ -198,7 +198,7 @@ def _parameters(sweep: Sweep) -> Table:
 
 
 def _outputs(sweep: Sweep) -> Table:
-    def figures(variant: str, output: Output) -> tuple[str, ...]:
+    def figures(variant: str, output: KeptOutput) -> tuple[str, ...]:
         values = sweep.done(variant)[output.name].to_numpy(dtype=float)
         values = values[np.isfinite(values)]
         if not values.size:

@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from cases.arrays import Flags, Floats
+from cases.results.sweep import KeptOutput, OutputBand, VariedParameter
 from reports.sweep.load import Sweep
-from reports.sweep.study_file import Band, Output, Parameter
 from reports.sweep.words import amount
 from reports.wording.numbers import SPACE, counted
 
@@ -22,7 +22,7 @@ class Split:
 
     Attributes
     ----------
-    parameter : Parameter
+    parameter : VariedParameter
         Which.
     below : bool
         Whether the band holds at its low values (else at its high ones).
@@ -33,7 +33,7 @@ class Split:
         Whether those that all hold, and that all fail, share one value.
     """
 
-    parameter: Parameter
+    parameter: VariedParameter
     below: bool
     holds: tuple[int, float]
     fails: tuple[int, float]
@@ -48,9 +48,9 @@ class Held:
     ----------
     variant : str
         Of the base case.
-    output : Output
+    output : KeptOutput
         What is judged.
-    band : Band
+    band : OutputBand
         Its limit.
     ok : ndarray of bool, shape (n,)
         Which judged samples are within the limit.
@@ -59,8 +59,8 @@ class Held:
     """
 
     variant: str
-    output: Output
-    band: Band
+    output: KeptOutput
+    band: OutputBand
     ok: Flags
     samples: pd.DataFrame
 
@@ -78,7 +78,7 @@ class Held:
         return math.inf if largest else 0.0
 
 
-def held(sweep: Sweep, variant: str, output: Output, band: Band) -> Held:
+def held(sweep: Sweep, variant: str, output: KeptOutput, band: OutputBand) -> Held:
     """Judge the samples that have a value of the output."""
     done = sweep.done(variant)
     samples = done[np.isfinite(done[output.name].to_numpy(dtype=float))]
@@ -96,13 +96,13 @@ def all_held(sweep: Sweep) -> tuple[Held, ...]:
     )
 
 
-def varied(parameter: Parameter, samples: pd.DataFrame) -> bool:
+def varied(parameter: VariedParameter, samples: pd.DataFrame) -> bool:
     """Whether samples differ in a parameter."""
     values = samples[parameter.name].to_numpy(dtype=float)
     return bool(values.size and values.min() < values.max())
 
 
-def splits(found: Held, parameters: Sequence[Parameter]) -> list[Split]:
+def splits(found: Held, parameters: Sequence[VariedParameter]) -> list[Split]:
     """For each parameter, how far it alone decides; the most decisive first."""
     made = [
         _split(found, parameter, below)
@@ -113,7 +113,7 @@ def splits(found: Held, parameters: Sequence[Parameter]) -> list[Split]:
     return sorted(made, key=lambda split: -(split.holds[0] + split.fails[0]))
 
 
-def _split(found: Held, parameter: Parameter, below: bool) -> Split:
+def _split(found: Held, parameter: VariedParameter, below: bool) -> Split:
     values = found.samples[parameter.name].to_numpy(dtype=float)
     sign = 1.0 if below else -1.0
     least_failing = np.min(sign * values[~found.ok], initial=np.inf)
@@ -129,7 +129,7 @@ def _split(found: Held, parameter: Parameter, below: bool) -> Split:
     )
 
 
-def sentence(found: Held, parameters: Sequence[Parameter]) -> str:
+def sentence(found: Held, parameters: Sequence[VariedParameter]) -> str:
     """Say in how many samples the band holds, and where."""
     count, within = len(found.ok), int(found.ok.sum())
     band = f"the band on the {found.output.label} (≤{SPACE}{amount(found.output, found.band.limit)})"

@@ -5,10 +5,10 @@ from functools import partial
 import numpy as np
 
 from cases.arrays import Floats
+from cases.results.sweep import KeptOutput, SobolIndex
 from reports.blocks import Block, Column, Figure, Paragraph, Section, Subsection, Table
 from reports.sweep.drawing import Bars, index_bars
 from reports.sweep.load import Sweep
-from reports.sweep.study_file import Index, Output
 from reports.wording.numbers import ABSENT, fixed
 from reports.wording.tabular import comma_separated
 
@@ -16,11 +16,11 @@ _PANELS = 6  # outputs of one figure
 _KINDS = ("S1", "S1_conf", "ST", "ST_conf")
 
 
-def _column(rows: list[Index], name: str) -> Floats:
+def _column(rows: list[SobolIndex], name: str) -> Floats:
     return np.array([np.nan if (value := getattr(row, name)) is None else value for row in rows])
 
 
-def _rows_of(sweep: Sweep, variant: str, output: Output) -> list[Index]:
+def _rows_of(sweep: Sweep, variant: str, output: KeptOutput) -> list[SobolIndex]:
     """Return an output's rows in the order of the parameters; empty where an index is missing throughout."""
     found = {
         row.parameter: row
@@ -31,7 +31,7 @@ def _rows_of(sweep: Sweep, variant: str, output: Output) -> list[Index]:
     return rows if any(row.ST is not None for row in rows) else []
 
 
-def _told(sweep: Sweep, output: Output, rows: list[Index]) -> str:
+def _told(sweep: Sweep, output: KeptOutput, rows: list[SobolIndex]) -> str:
     """Name the parameter with the largest total index, and the share that no parameter has alone."""
     labels = {p.name: p.label for p in sweep.study.parameters}
     best = max(rows, key=lambda row: row.ST if row.ST is not None else -np.inf)
@@ -78,7 +78,7 @@ def _figures(sweep: Sweep, variant: str, key: str) -> tuple[Block, ...]:
     return tuple(blocks)
 
 
-def _table(sweep: Sweep, key: str, shown: list[tuple[Output, list[Index]]]) -> Table:
+def _table(sweep: Sweep, key: str, shown: list[tuple[KeptOutput, list[SobolIndex]]]) -> Table:
     labels = {p.name: p.label for p in sweep.study.parameters}
 
     def pair(value: float | None, half: float | None) -> tuple[str, str]:

@@ -5,10 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from pydantic import TypeAdapter
 
 from cases.arrays import Floats
+from cases.results.sweep import KeptOutput, OutputBand, SweepAccount, VariedParameter
 from reports.errors import ReportError
-from reports.sweep.study_file import Band, Output, Parameter, Study, read_study
+from reports.result.strict_json import read_json
 
 STUDY, SAMPLES = "study.json", "samples"
 OK, FAILED = "ok", "failed"
@@ -21,7 +23,7 @@ class Sweep:
 
     Attributes
     ----------
-    study : Study
+    study : SweepAccount
         What study.json holds.
     text : str
         The study as it was read (study.yaml); "" without one.
@@ -30,7 +32,7 @@ class Sweep:
         output.
     """
 
-    study: Study
+    study: SweepAccount
     text: str
     samples: pd.DataFrame
 
@@ -43,14 +45,14 @@ class Sweep:
         """Return the samples of a variant that have values."""
         return self.samples[(self.samples["variant"] == variant) & (self.samples["status"] == OK)]
 
-    def band(self, variant: str, output: Output) -> Band | None:
+    def band(self, variant: str, output: KeptOutput) -> OutputBand | None:
         """Return the band that judges an output of a variant."""
         band = output.band
         if band is None or (band.variants is not None and variant not in band.variants):
             return None
         return band
 
-    def judged(self, variant: str) -> tuple[tuple[Output, Band], ...]:
+    def judged(self, variant: str) -> tuple[tuple[KeptOutput, OutputBand], ...]:
         """Return the outputs of a variant that a band judges, with it."""
         found = ((output, self.band(variant, output)) for output in self.study.outputs)
         return tuple((output, band) for output, band in found if band)
@@ -64,7 +66,7 @@ def load_sweep(directory: Path) -> Sweep:
     ReportError
         If a file is absent or damaged, no sample is recorded, or both do not belong together.
     """
-    study = read_study(directory / STUDY)
+    study = read_json(directory / STUDY, TypeAdapter(SweepAccount))
     path = directory / SAMPLES
     parts = sorted(path.glob("[!.]*.parquet"))
     if not parts:
@@ -90,7 +92,7 @@ def _read(part: Path) -> pd.DataFrame:
         ) from error
 
 
-def _check(path: Path, study: Study, samples: pd.DataFrame) -> None:
+def _check(path: Path, study: SweepAccount, samples: pd.DataFrame) -> None:
     numbers = [parameter.name for parameter in study.parameters]
     numbers += [output.name for output in study.outputs]
     missing = [name for name in ("sample", "variant", "status", "error", *numbers) if name not in samples]
@@ -108,6 +110,6 @@ def _check(path: Path, study: Study, samples: pd.DataFrame) -> None:
         raise ReportError(f"{path}: sample {doubled.iloc[0]} is recorded twice")
 
 
-def shown(item: Parameter | Output, samples: pd.DataFrame) -> Floats:
+def shown(item: VariedParameter | KeptOutput, samples: pd.DataFrame) -> Floats:
     """Values of a parameter or output in the unit that people read."""
     return np.asarray(samples[item.name].to_numpy(dtype=float) * item.display_factor)

@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pandas as pd
 
+from cases.results.sweep import KeptOutput, VariedParameter
 from reports.sweep.load import OK, Sweep, shown
 from reports.sweep.responses import logarithmic
-from reports.sweep.study_file import Output, Parameter
 from reports.sweep.words import is_error
 
 MOST_SAMPLES = 5000  # points that a browser still moves at ease
@@ -35,11 +35,11 @@ def page_data(sweep: Sweep) -> str:
     return json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
-def _column(item: Parameter | Output, samples: pd.DataFrame) -> dict[str, object]:
+def _column(item: VariedParameter | KeptOutput, samples: pd.DataFrame) -> dict[str, object]:
     values = [float(f"{value:.6g}") if np.isfinite(value) else None for value in shown(item, samples)]
     return {"label": item.label, "unit": item.unit, "values": values}
 
 
-def _limit(sweep: Sweep, variant: str, output: Output) -> float | None:
+def _limit(sweep: Sweep, variant: str, output: KeptOutput) -> float | None:
     band = sweep.band(variant, output)
     return None if band is None else float(f"{band.limit * output.display_factor:.6g}")

@@ -7,11 +7,11 @@ from itertools import combinations, islice
 import numpy as np
 import pandas as pd
 
+from cases.results.sweep import KeptOutput, VariedParameter
 from reports.blocks import Block, Figure, Interactive, Paragraph, Section, Subsection
 from reports.sweep.drawing import Abscissa, Ordinate, Plane, planes, responses
 from reports.sweep.held import Held, sentence, varied
 from reports.sweep.load import Sweep, shown
-from reports.sweep.study_file import Output, Parameter
 from reports.sweep.words import amount, axis_label, ends, is_error, steady
 from reports.wording.numbers import fixed, listed, plus
 from reports.wording.tabular import comma_separated
@@ -22,17 +22,17 @@ _PAIRS = 3
 _DECADES = 20.0  # largest over least value of a parameter that is drawn logarithmically
 
 
-def logarithmic(parameter: Parameter, samples: pd.DataFrame) -> bool:
+def logarithmic(parameter: VariedParameter, samples: pd.DataFrame) -> bool:
     """Whether a parameter spans so much that only a logarithmic axis shows it."""
     values = samples[parameter.name].to_numpy(dtype=float)
     return bool(values.size and values.min() > 0 and values.max() >= _DECADES * values.min())
 
 
-def _abscissa(parameter: Parameter, samples: pd.DataFrame) -> Abscissa:
+def _abscissa(parameter: VariedParameter, samples: pd.DataFrame) -> Abscissa:
     return Abscissa(axis_label(parameter), shown(parameter, samples), logarithmic(parameter, samples))
 
 
-def _ordinate(sweep: Sweep, variant: str, output: Output, samples: pd.DataFrame) -> Ordinate:
+def _ordinate(sweep: Sweep, variant: str, output: KeptOutput, samples: pd.DataFrame) -> Ordinate:
     band = sweep.band(variant, output)
     values = shown(output, samples)
     limit = np.nan if band is None else band.limit * output.display_factor
@@ -53,8 +53,8 @@ def _size(found: Held) -> Ordinate:
 
 
 def influence(
-    sweep: Sweep, variant: str, output: Output, samples: pd.DataFrame
-) -> list[tuple[float, Parameter]]:
+    sweep: Sweep, variant: str, output: KeptOutput, samples: pd.DataFrame
+) -> list[tuple[float, VariedParameter]]:
     """Sort parameters by their total Sobol index, or where there is none by |rank correlation|."""
     totals = {
         row.parameter: row.ST
@@ -71,7 +71,7 @@ def influence(
     return sorted(found, key=lambda pair: -pair[0])
 
 
-def _correlation(samples: pd.DataFrame, parameter: Parameter, output: Output) -> float:
+def _correlation(samples: pd.DataFrame, parameter: VariedParameter, output: KeptOutput) -> float:
     """Rank correlation (Spearman); 0 where one of both does not vary."""
     ranks = samples[[parameter.name, output.name]].dropna().rank().to_numpy()
     if not len(ranks) or np.ptp(ranks, axis=0).min() == 0:
@@ -79,7 +79,7 @@ def _correlation(samples: pd.DataFrame, parameter: Parameter, output: Output) ->
     return float(np.corrcoef(ranks.T)[0, 1])
 
 
-def _csv(sweep: Sweep, samples: pd.DataFrame, outputs: Sequence[Output]) -> str:
+def _csv(sweep: Sweep, samples: pd.DataFrame, outputs: Sequence[KeptOutput]) -> str:
     names = ["sample", *(p.name for p in sweep.study.parameters), *(o.name for o in outputs)]
     return comma_separated(names, samples[names].itertuples(index=False, name=None), 6)
 
@@ -142,7 +142,7 @@ def held_section(sweep: Sweep, bands: Sequence[Held]) -> Section:
     return Section("held", title, (*opening, *figures))
 
 
-def _strongest(sweep: Sweep, output: Output, samples: pd.DataFrame) -> str:
+def _strongest(sweep: Sweep, output: KeptOutput, samples: pd.DataFrame) -> str:
     """Say what an output ranges over, and which parameter it follows most."""
     values = samples[output.name].to_numpy(dtype=float)
     values = values[np.isfinite(values)]

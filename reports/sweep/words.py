@@ -3,7 +3,7 @@
 import math
 import re
 
-from reports.sweep.study_file import Output, Parameter
+from cases.results.sweep import KeptOutput, VariedParameter
 from reports.wording.numbers import ABSENT, SPACE, rounded, with_unit
 
 _LEAST, _MOST = 1e-4, 1e6  # sizes that are written without a power of ten
@@ -20,7 +20,7 @@ DESIGNS = {
 }
 
 
-def amount(item: Parameter | Output, value: float | None, significant: int = 3) -> str:
+def amount(item: VariedParameter | KeptOutput, value: float | None, significant: int = 3) -> str:
     """Write an SI value with the unit that people read it in."""
     if value is None:
         return ABSENT
@@ -36,7 +36,7 @@ def steady(low: float, high: float) -> bool:
     return high - low < _LEAST_SPREAD * max(abs(low), abs(high)) or high == low
 
 
-def ends(item: Parameter | Output, low: float, high: float) -> str:
+def ends(item: VariedParameter | KeptOutput, low: float, high: float) -> str:
     """E.g. "12.04 kPa … 12.09 kPa", with as many digits as tell the ends apart; one value of steady ones."""
     if high == low:
         return f"{amount(item, low)} (does not vary)"
@@ -47,12 +47,12 @@ def ends(item: Parameter | Output, low: float, high: float) -> str:
     return f"{amount(item, low, significant)} … {amount(item, high, significant)}"
 
 
-def is_error(output: Output) -> bool:
+def is_error(output: KeptOutput) -> bool:
     """Whether an output tells how far a sample is from what judges it."""
     return output.name.endswith(_ERRORS)
 
 
-def unit_words(item: Parameter | Output) -> str:
+def unit_words(item: VariedParameter | KeptOutput) -> str:
     """Return the unit with raised exponents; "" for a plain number."""
     plain = "" if item.unit == "1" else item.unit
     return re.sub(r"\^(-?\d+)", lambda found: _raised(int(found[1])), plain)
@@ -62,6 +62,6 @@ def _raised(power: int) -> str:
     return str(power).translate(_RAISED)
 
 
-def axis_label(item: Parameter | Output) -> str:
+def axis_label(item: VariedParameter | KeptOutput) -> str:
     """E.g. "wall thickness (mm)"."""
     return f"{item.label} ({unit_words(item) or '–'})"

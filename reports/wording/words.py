@@ -4,29 +4,10 @@ import math
 from collections.abc import Sequence
 
 from cases.fields import FIELDS, Field
+from cases.results.metric_row import MetricRow
+from cases.statistics import statistic_of
 from reports.result.load import Comparison
-from reports.result.metrics import DIFFERENCE_STATISTICS, Row
 from reports.wording.numbers import ABSENT, SPACE, fixed, listed, percent, unsigned, with_unit
-
-STATISTICS = {
-    "value": "value",
-    "rms_error": "RMS error",
-    "max_error": "largest error",
-    "systolic_error": "error at systole",
-    "diastolic_error": "error at end diastole",
-    "rms_difference": "RMS difference",
-    "max_difference": "largest difference",
-    "bias": "bias",
-    "scatter": "scatter",
-    "cycle": "error over the cycle",
-    "change": "change by calcification",
-    "ratio": "ratio to the baseline",
-}
-_RARE = {
-    "curved_rms_error": "RMS error against 3D with the section's edge taken round",
-    "worst_cell": "RMS error of the worst cell",
-}
-UNSIGNED_STATISTICS = ("rms_error", "scatter")
 
 
 def field_of(quantity: str, unit: str) -> Field:
@@ -43,25 +24,26 @@ def quantity_words(quantity: str) -> str:
 
 def statistic_words(statistic: str) -> str:
     """E.g. "RMS error"."""
-    return STATISTICS.get(statistic) or _RARE.get(statistic, statistic.replace("_", " "))
+    return statistic_of(statistic).label
 
 
-def measure(row: Row, value: float | None, decimals: int = 2) -> str:
+def measure(row: MetricRow, value: float | None, decimals: int = 2) -> str:
     """Write an error or a limit in the unit of its statistic: percent, or the quantity's display unit."""
-    if row.statistic not in DIFFERENCE_STATISTICS:
+    statistic = statistic_of(row.statistic)
+    if statistic.relative:
         text = percent(value, decimals)
-        return unsigned(text) if row.statistic in UNSIGNED_STATISTICS else text
+        return text if statistic.signed else unsigned(text)
     field = field_of(row.quantity, row.unit)
     return with_unit(
         fixed(None if value is None else value * field.display_factor, decimals), field.display_unit
     )
 
 
-def limit(row: Row) -> str:
+def limit(row: MetricRow) -> str:
     """Write a band's limit as it was declared: without trailing zeros."""
     if row.band is None:
         return ABSENT
-    if row.statistic not in DIFFERENCE_STATISTICS:
+    if statistic_of(row.statistic).relative:
         return f"{100 * row.band:.6g}{SPACE}%"
     field = field_of(row.quantity, row.unit)
     return with_unit(f"{row.band * field.display_factor:.6g}", field.display_unit)
@@ -75,7 +57,7 @@ def spot(i: int | None, j: int | None, t_s: float | None) -> str:
     return ", ".join(parts)
 
 
-def place(row: Row) -> str:
+def place(row: MetricRow) -> str:
     """Say where and when a figure was taken."""
     return spot(row.i, row.j, row.t_s)
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from cases.errors import QuantityError
 from cases.fields import FIELDS
-from cases.sections.compare import COMPARED_QUANTITIES
+from cases.quantities import compared_quantities
 from cases.values.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity, parse_ratio
 
 FACTORS = {
@@ -126,7 +126,7 @@ def test_what_is_no_ratio_is_refused(text):
 
 
 def test_every_compared_quantity_can_carry_a_limit():
-    units = {FIELDS[name].unit for name in COMPARED_QUANTITIES}
+    units = {FIELDS[name].unit for name in compared_quantities()}
     assert units <= {"1", *DIMENSION_OF_UNIT}
 
 

@@ -2,12 +2,14 @@
 
 from types import SimpleNamespace
 
-from reports.result.metrics import Metrics, Row
+from cases.results.metric_row import metric_row
+from reports.result.metrics import Metrics
 from reports.sections import change_apart, further, pooled
 
 
 def row(statistic, error, rom=None, reference=None, variant="local"):
-    return Row("case", variant, "radius", statistic, None, None, None, rom, reference, error, "m", None, "")
+    values = {"rom": rom, "reference": reference, "error": error}
+    return metric_row("case", variant, "radius", statistic, unit="m", **values)
 
 
 def comparison(*rows):

@@ -12,6 +12,7 @@ import pandas as pd
 import pytest
 import synthetic_sweep as synthetic
 
+from cases.results.sweep import KeptOutput, OutputBand, VariedParameter
 from reports import ReportError
 from reports.__main__ import main
 from reports.blocks import Table
@@ -22,12 +23,11 @@ from reports.sweep.drawing import means
 from reports.sweep.held import Held, all_held, sentence, splits
 from reports.sweep.load import load_sweep
 from reports.sweep.page_data import page_data
-from reports.sweep.study_file import Band, Output, Parameter
 from reports.sweep.words import amount, axis_label, ends
 
-PARAMETER = Parameter(name="p", label="stiffness", unit="MPa", display_factor=1e-6, kind="list")
-OTHER = Parameter(name="o", label="angle", unit="deg", display_factor=1.0, kind="list")
-OUTPUT = Output(name="e", label="error", unit="%", display_factor=100.0)
+PARAMETER = VariedParameter(name="p", label="stiffness", unit="MPa", display_factor=1e-6, kind="list")
+OTHER = VariedParameter(name="o", label="angle", unit="deg", display_factor=1.0, kind="list")
+OUTPUT = KeptOutput(name="e", label="error", unit="%", display_factor=100.0)
 
 
 def _table(sweep: Any, key: str) -> Table:
@@ -40,7 +40,7 @@ def _plain(text: str) -> str:
 
 def _held(stiffness: list[float], angle: list[float], errors: list[float]) -> Held:
     samples = pd.DataFrame({"sample": range(len(errors)), "p": stiffness, "o": angle, "e": errors})
-    band = Band(limit=0.02, reason="r")
+    band = OutputBand(limit=0.02, reason="r")
     return Held("local", OUTPUT, band, np.abs(samples["e"].to_numpy()) <= band.limit, samples)
 
 
@@ -278,7 +278,7 @@ def test_means_are_of_equal_values_or_of_neighbours() -> None:
 
 
 def test_amounts_have_their_unit_and_powers_of_ten() -> None:
-    resistance = Parameter(name="r", label="R", unit="Pa s/m^3", display_factor=1.0, kind="list")
+    resistance = VariedParameter(name="r", label="R", unit="Pa s/m^3", display_factor=1.0, kind="list")
     assert _plain(amount(resistance, 1.2e9)) == "1.20 · 10⁹ Pa s/m³"
     assert _plain(amount(PARAMETER, 2.5e6)) == "2.50 MPa"
     assert amount(PARAMETER, None) == "—"
@@ -297,7 +297,7 @@ def test_amounts_have_their_unit_and_powers_of_ten() -> None:
     ],
 )
 def test_a_range_has_the_digits_that_it_needs(low: float, high: float, text: str) -> None:
-    output = Output(name="pressure", label="pressure", unit="kPa", display_factor=1e-3)
+    output = KeptOutput(name="pressure", label="pressure", unit="kPa", display_factor=1e-3)
     assert _plain(ends(output, low, high)) == text
 
 

@@ -9,11 +9,11 @@ from comparisons import equal_models, two_models
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cases.sections.compare import COMPARED_QUANTITIES, RELATIVE_STATISTICS, Band
+from cases.quantities import compared_quantities
+from cases.sections.compare import Band
+from cases.statistics import JUDGED
 from validation.metrics.bands import band_rows, judged_value
-from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
-
-DIFFERENCES = ("rms_difference", "max_difference")
+from validation.metrics.quantities import CYCLE_QUANTITIES
 
 
 def band(quantity="radius", statistic="rms_error", limit="2 %", **more):
@@ -32,8 +32,8 @@ def scaled(models, quantity, factor):
     return replace(models, reference=changed)
 
 
-@pytest.mark.parametrize("quantity", COMPARED_QUANTITIES)
-@pytest.mark.parametrize("statistic", [*RELATIVE_STATISTICS, *DIFFERENCES])
+@pytest.mark.parametrize("quantity", compared_quantities())
+@pytest.mark.parametrize("statistic", JUDGED)
 def test_every_band_that_can_be_declared_can_be_judged(quantity, statistic):
     models = two_models()
     value = judged_value(models, SimpleNamespace(quantity=quantity, statistic=statistic))

@@ -14,8 +14,8 @@ from small_case import GENEROUS, IMPOSSIBLE, bands, small_case, written
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from cases.fields import FIELDS
+from cases.quantities import tabulated
 from validation.compare import command as compare
-from validation.metrics.rows import CELL_QUANTITIES, SECTION_QUANTITIES
 
 FILES = {"comparison.nc", "metrics.csv", "metrics.json", "provenance.json", "report.html", "report.pdf"}
 
@@ -87,7 +87,7 @@ class TestResult:
 
     def test_each_value_is_in_the_dataset(self, finished):
         rows = json.loads((finished[1] / "metrics.json").read_text(encoding="utf-8"))
-        compared = (*CELL_QUANTITIES, *SECTION_QUANTITIES)
+        compared = tabulated()
         values = [row for row in rows if row["statistic"] == "value" and row["quantity"] in compared]
         assert len(values) == 2 * (5 * 3 * 2 + 2 * 3) * 3
         with xr.open_dataset(finished[1] / "comparison.nc") as data:
@@ -127,7 +127,7 @@ class TestResult:
             reader.Update()
             wall = pv.wrap(reader.GetOutput())
             assert wall.n_cells == 12 * 8
-            for name in CELL_QUANTITIES:
+            for name in ("pressure", "radius", "mean_velocity", "sector_flow_rate", "profile_exponent"):
                 expected = last[f"{model}_{name}"].to_numpy().ravel()
                 np.testing.assert_allclose(wall.cell_data[name], expected, rtol=1e-6)
             middle = wall.cell_centers().points.reshape(12, 8, 3)

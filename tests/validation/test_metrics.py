@@ -21,9 +21,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cases.fields import FIELDS
+from cases.results.metric_row import COLUMNS, metric_row
 from validation.metrics import rows as metrics
-from validation.metrics.cycle_quantities import CYCLE_QUANTITIES, phase_lag
-from validation.metrics.rows import COLUMNS, Row, to_frame
+from validation.metrics.phase_lag import phase_lag
+from validation.metrics.quantities import CYCLE_QUANTITIES
+from validation.metrics.rows import to_frame
 
 AFFECTED = {
     "pressure": {"pressure"},
@@ -119,7 +121,7 @@ def test_values_are_those_of_the_cell_and_instant_named():
 def test_section_quantities_have_no_row_number():
     found = [*metrics.value_rows(two_models(), CELLS, TIMES), *metrics.cycle_error_rows(two_models(), CELLS)]
     for row in found:
-        assert (row.j is None) == (row.quantity in metrics.SECTION_QUANTITIES)
+        assert (row.j is None) == (row.quantity in ("section_flow_rate", "section_pressure"))
 
 
 def test_the_largest_error_says_where_and_when_it_is():
@@ -235,7 +237,7 @@ class TestChanges:
         assert list(metrics.change_rows(rows, {})) == []
 
     def test_no_ratio_over_nothing(self):
-        base = Row("c", "none", "pressure", "value", 1, 1, 0.0, rom=0.0, reference=2.0)
+        base = metric_row("c", "none", "pressure", "value", i=1, j=1, t_s=0.0, rom=0.0, reference=2.0)
         here = replace(base, variant="local", rom=1.0, reference=3.0)
         (row,) = metrics.change_rows([base, here], {"none": "none", here.variant: "none"})
         assert (row.statistic, row.rom, row.reference, row.error) == ("change", 1.0, 1.0, 0.0)

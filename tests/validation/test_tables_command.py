@@ -8,7 +8,7 @@ import pytest
 from solver.errors import WallCollapse
 from validation.tables import command as tables
 from validation.tables import presentation, store
-from validation.tables.experiment import Entry, Experiment, Row, number, numbers, within
+from validation.tables.experiment import Check, Entry, Experiment, number, numbers, within
 
 
 @pytest.fixture
@@ -163,9 +163,9 @@ def test_stability_limit_is_the_last_stable_step():
     ("row", "text"),
     [
         (within("", "", "", 1.0, 2.0, 0.05), "± 5 %"),
-        (Row("", "", "", 1.0, None, 1.4, float("inf")), "≥ 1.4"),
-        (Row("", "", "", 1.0, None, 0.0, 1e-12), "≤ 1e-12"),
-        (Row("", "", "", 1.0, None, 0.9, 1.1), "0.9 to 1.1"),
+        (Check("", "", "", 1.0, None, 1.4, float("inf")), "≥ 1.4"),
+        (Check("", "", "", 1.0, None, 0.0, 1e-12), "≤ 1e-12"),
+        (Check("", "", "", 1.0, None, 0.9, 1.1), "0.9 to 1.1"),
     ],
 )
 def test_allowed_range_in_words(row, text):

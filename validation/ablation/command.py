@@ -7,8 +7,8 @@ run. In a directory that holds a finished comparison its reports get the table t
 import argparse
 import sys
 import time
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +19,7 @@ from rich.table import Table
 from cases.arrays import Floats
 from cases.errors import CaseError
 from cases.reading.case_file import CaseFile, load_case_file
+from cases.results.ablation import MEASURES, AblationRow
 from cases.sections.case import Case, LocalCalcification
 from febio_io.errors import FebioError
 from reports import ReportError, write_reports
@@ -41,49 +42,6 @@ WRONG_INPUT, INTERRUPTED = 2, 130
 PAGE_WIDTH = 160
 
 
-@dataclass(frozen=True)
-class AblationRow:
-    """Relative errors of one model in one variant; None where it failed, or there is nothing to compare.
-
-    Attributes
-    ----------
-    variant, model : str
-    radius_rms, radius_max, pressure_rms, section_flow_rms : float or None
-        Against the 3D run, over all cells or sections and states.
-    sector_share_rms, sector_share_max : float or None
-        The same of a sector's flow over its section's.
-    thesis_sector_max : float or None
-        Largest error of the sectors' flows over their mean against the thesis's table 3.8.
-    run_s : float
-        CPU seconds of the reduced model, tables and steady start included.
-    failure : str
-        What stopped the run, or "".
-    """
-
-    variant: str
-    model: str
-    radius_rms: float | None = None
-    radius_max: float | None = None
-    pressure_rms: float | None = None
-    section_flow_rms: float | None = None
-    sector_share_rms: float | None = None
-    sector_share_max: float | None = None
-    thesis_sector_max: float | None = None
-    run_s: float = 0.0
-    failure: str = ""
-
-
-HEADINGS: Mapping[str, str] = {
-    "radius_rms": "R rms",
-    "radius_max": "R worst",
-    "pressure_rms": "P rms",
-    "section_flow_rms": "section flow rms",
-    "sector_share_rms": "sector share rms",
-    "sector_share_max": "sector share worst",
-    "thesis_sector_max": "table 3.8 worst",
-}
-
-
 def ablation_row(
     variant: str, model: str, case: Case, reference: Reference, table: Path | None
 ) -> AblationRow:
@@ -93,7 +51,8 @@ def ablation_row(
     try:
         run = run_reduced_model(case, reference.alignment, rays(grid.x, grid.phi)).fields
     except SolverError as error:
-        return AblationRow(variant, model, failure=str(error), run_s=time.process_time() - begin)
+        spent = time.process_time() - begin
+        return AblationRow(variant, model, **dict.fromkeys(MEASURES), run_s=spent, failure=str(error))
     spent = time.process_time() - begin
 
     def relative(name: str, over: str | None = None) -> Floats:
@@ -115,6 +74,7 @@ def ablation_row(
         sector_share_max=largest(share),
         thesis_sector_max=largest(sector_errors(case, table)) if table is not None and has_table else None,
         run_s=round(spent, 3),
+        failure="",
     )
 
 
@@ -165,10 +125,10 @@ def write_rows(directory: Path, rows: list[AblationRow]) -> None:
 def printed(rows: list[AblationRow]) -> Table:
     """Rows as a table for a terminal."""
     table = Table(title="Errors against 3D")
-    for heading in ("variant", "model", *HEADINGS.values(), "run"):
+    for heading in ("variant", "model", *(each.heading for each in MEASURES.values()), "run"):
         table.add_column(heading, no_wrap=heading == "model")
     for row in rows:
-        values = [getattr(row, name) for name in HEADINGS]
+        values = [getattr(row, name) for name in MEASURES]
         texts = ["" if value is None else f"{100 * value:+.2f} %" for value in values]
         table.add_row(
             row.variant, row.model, *(texts if not row.failure else [row.failure]), f"{row.run_s:.2f} s"

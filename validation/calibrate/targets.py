@@ -8,6 +8,7 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.fields import FIELDS
+from cases.quantities import reads
 from cases.reading.calibration_file import Calibration, Place, ReferenceTarget, Target
 from cases.sections.case import Case
 from solver.case.model import grid_of
@@ -15,7 +16,7 @@ from solver.model.parameters import Model
 from solver.runs.result import CellHistory, coordinates, described, section_mean
 from validation.errors import ValidationError
 from validation.mapping.rays import rays
-from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
+from validation.metrics.quantities import CYCLE_QUANTITIES
 from validation.reference.kinds import kind_of
 from validation.runs.cache import Cache
 from validation.runs.cached import cached_reference
@@ -23,13 +24,6 @@ from validation.runs.reduced_model import run_times
 from validation.runs.variants import Watch
 
 INSTANTS = 400  # of the last cycle among which extremes are looked for: systole may be a narrow peak
-FIELD_OF = {
-    "systolic_pressure": "section_pressure",
-    "diastolic_pressure": "section_pressure",
-    "pulse_pressure": "section_pressure",
-    "largest_radius": "radius",
-    "least_radius": "radius",
-}
 
 
 @dataclass(frozen=True)
@@ -89,7 +83,7 @@ def _of_targets(case: Case, targets: tuple[Target, ...]) -> Observed:
     uncertainties = [target.uncertainty for target in targets]
     stated = [each for each in uncertainties if each is not None]
     quantities = tuple(target.quantity for target in targets)
-    needed = {FIELD_OF[quantity] for quantity in quantities}
+    needed = {name for quantity in quantities for name in reads(quantity)}
 
     def measure(model: Model, cells: CellHistory) -> Floats:
         cycle = measured(model, cells, needed).isel(time=slice(-last.size, None))

@@ -1,9 +1,9 @@
 """What a comparison says of itself: notes, warnings, and where everything came from."""
 
 from collections.abc import Mapping
-from typing import Any
 
 from cases.reading.case_file import CaseFile
+from cases.results.provenance import DeclaredBand, Provenance
 from cases.sections.case import Case
 from cases.sections.compare import Band
 from solver.case.locality import locality_warning
@@ -65,10 +65,10 @@ def described(
     wall_times: dict[str, float],
     command: list[str],
     notes: list[str],
-) -> dict[str, Any]:
+) -> Provenance:
     """Provenance of a finished comparison, with notes and warnings."""
     inputs = [path for case in file.variants.values() for path in case.input_files]
-    return provenance(file.path, inputs, command) | {
+    stated = {
         "seeds": {"bootstrap": SEED},
         "wall_times_s": wall_times,
         "notes": [*notes, *notes_of(runs)],
@@ -79,9 +79,10 @@ def described(
         },
         "bands": declared_bands(file.variants),
     }
+    return Provenance.model_validate(provenance(file.path, inputs, command) | stated, strict=False)
 
 
-def declared_bands(cases: Mapping[str, Case]) -> list[dict[str, Any]]:
+def declared_bands(cases: Mapping[str, Case]) -> list[DeclaredBand]:
     """Every declared band once, with the names of the variants that it judges."""
     judged: dict[Band, list[str]] = {}
     for name, case in cases.items():
@@ -89,12 +90,12 @@ def declared_bands(cases: Mapping[str, Case]) -> list[dict[str, Any]]:
             if band.variants is None or name in band.variants:
                 judged.setdefault(band, []).append(name)
     return [
-        {
-            "quantity": band.quantity,
-            "statistic": band.statistic,
-            "limit": band.limit,
-            "reason": band.reason,
-            "variants": names,
-        }
+        DeclaredBand(
+            quantity=band.quantity,
+            statistic=band.statistic,
+            limit=band.limit,
+            reason=band.reason,
+            variants=tuple(names),
+        )
         for band, names in judged.items()
     ]

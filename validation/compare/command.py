@@ -17,6 +17,8 @@ import xarray as xr
 from cases.arrays import Floats
 from cases.errors import CaseError
 from cases.reading.case_file import CaseFile, load_case_file
+from cases.results.comparison_file import PROFILE_ERROR_CURVE
+from cases.results.metric_row import MetricRow, Status
 from febio_io.errors import FebioError
 from solver.case.model import inlet_signal
 from solver.errors import SolverError
@@ -36,22 +38,23 @@ from validation.compare.side_by_side import write_side_by_side
 from validation.errors import ValidationError
 from validation.metrics import rows as metrics
 from validation.metrics.assumptions import assumption_rows
-from validation.metrics.bands import FAIL, MISSING, OK, band_rows
+from validation.metrics.bands import band_rows
 from validation.metrics.confidence import confidence_rows
 from validation.metrics.curved_section import curved_section_rows
 from validation.metrics.pooled_change import pooled_change_rows, without_rays
-from validation.metrics.profile_curves import CURVE, error_curves, profile_rows
-from validation.metrics.rows import Models, Row, models_of
+from validation.metrics.profile_curves import error_curves, profile_rows
+from validation.metrics.rows import Models, models_of
 from validation.reference.generated import check_computed, check_stated
 from validation.runs.cache import Cache, open_cache
 from validation.runs.output import check_target, result_directory, write_json, write_metrics
 from validation.runs.variants import Watch, align_variants, run_variants, watching
 
 EXPECTED = (CaseError, SolverError, FebioError, ValidationError)
+VERDICTS: tuple[Status, ...] = ("OK", "FAIL", "MISSING")
 COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
-def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any]) -> list[Row]:
+def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any]) -> list[MetricRow]:
     """All rows of one variant, its bands' among them."""
     cells = (attributes["compare_i"], attributes["compare_j"])
     return [
@@ -86,11 +89,11 @@ def prescribed_inflow(run: VariantRun) -> Floats | None:
 class Outcome:
     """All rows of a comparison, and what a user should see besides."""
 
-    rows: list[Row]
+    rows: list[MetricRow]
     warnings: list[str]
 
     @property
-    def bands(self) -> list[Row]:
+    def bands(self) -> list[MetricRow]:
         """Rows that judge a declared band."""
         return [row for row in self.rows if row.status]
 
@@ -115,20 +118,20 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
         with watch.step("metrics"):
             write_metrics(directory, metrics.to_frame(rows))
         account = described(file, runs, watch.wall_times, command, [*watch.remarks, *notes])
-        write_json(directory / "provenance.json", account)
+        write_json(directory / "provenance.json", account.written())
         with watch.step("reports"):
             write_reports(directory)
-    return Outcome(rows, [*watch.remarks, *account["warnings"]])
+    return Outcome(rows, [*watch.remarks, *account.warnings])
 
 
 def _compared(
     file: CaseFile, directory: Path, watch: Watch
-) -> tuple[list[Row], dict[str, VariantRun], list[str]]:
+) -> tuple[list[MetricRow], dict[str, VariantRun], list[str]]:
     """Run all variants; leave comparison.nc. Returns all rows, the runs without their fields, and notes."""
     alignments, notes = at_common_instants(file.variants, align_variants(file.variants))
     times = alignments[next(iter(file.variants))].cycle_times
     about = attributes(file, times)
-    rows: dict[str, list[Row]] = {}
+    rows: dict[str, list[MetricRow]] = {}
     runs: dict[str, VariantRun] = {}
     compared: dict[str, Models] = {}
     writing: list[Future[None]] = []
@@ -143,7 +146,7 @@ def _compared(
                 models = models_of(file.name, name, both, about["period_s"], **told)
                 rows[name] = variant_rows(models, run, about)
                 compared[name] = without_rays(models)
-                both[CURVE] = error_curves(models, about)
+                both[PROFILE_ERROR_CURVE] = error_curves(models, about)
             writing.append(writer.submit(_store, stored, name, both, watch))
             with watch.step("files for ParaView"):
                 write_walls(directory, name, both)
@@ -161,9 +164,9 @@ def _store(stored: ComparisonFile, name: str, both: xr.Dataset, watch: Watch) ->
         stored.write(name, both)
 
 
-def summary(file: CaseFile, target: Path, bands: list[Row]) -> str:
+def summary(file: CaseFile, target: Path, bands: list[MetricRow]) -> str:
     """One line for people."""
-    counts = {status: sum(row.status == status for row in bands) for status in (OK, FAIL, MISSING)}
+    counts = {status: sum(row.status == status for row in bands) for status in VERDICTS}
     verdict = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "none declared"
     return f"{file.name}: bands: {verdict}; report: {target / 'report.html'}, {target / 'report.pdf'}"
 
@@ -224,14 +227,14 @@ def main(argv: list[str] | None = None) -> int:
         cache = open_cache(arguments.fresh)
         files = [load_case_file(path) for path in arguments.cases]
         places = targets(files, arguments.output)
-        rows: dict[str, list[Row]] = {}
+        rows: dict[str, list[MetricRow]] = {}
         for file, target in zip(files, places, strict=True):
             outcome = compare_case(file, target, command, cache)
             rows[file.name] = outcome.rows
             for warning in outcome.warnings:
                 print(f"warning: {warning}", file=sys.stderr)
             bands = outcome.bands
-            broken |= any(row.status in (FAIL, MISSING) for row in bands)
+            broken |= any(row.status in ("FAIL", "MISSING") for row in bands)
             print(summary(file, target, bands))
         if len(files) > 1:
             written = write_side_by_side(places[0].parent, rows)

@@ -10,6 +10,7 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
+from cases.results.comparison_file import CALCIFIED, WALL_STIFFNESS, variable
 from cases.sections.case import Case, NoCalcification
 from solver.case.model import calcified_cells
 from solver.runs.result import CONVENTIONS
@@ -112,13 +113,16 @@ def both_models(run: VariantRun, times: Floats) -> xr.Dataset:
 
     ``times`` are those of the first variant: instants that variants share differ by round-off.
     """
-    rom = run.rom.fields.rename({name: f"rom_{name}" for name in run.rom.fields.data_vars})
-    reference = run.reference.fields
-    reference = reference.rename({name: f"reference_{name}" for name in reference.data_vars})
-    both = xr.merge([part.assign_coords(time=times) for part in (rom, reference)], join="exact")
+    parts = [
+        fields.assign_coords(time=times).rename(
+            {name: variable(model, str(name)) for name in fields.data_vars}
+        )
+        for model, fields in (("rom", run.rom.fields), ("reference", run.reference.fields))
+    ]
+    both = xr.merge(parts, join="exact")
     calcified = calcified_cells(run.case).astype(np.int8)
-    both["wall_stiffness"] = run.rom.stiffness
-    both["calcified"] = (("x", "phi"), calcified, {"units": "1", "long_name": "inside the calcification"})
+    both[WALL_STIFFNESS] = run.rom.stiffness
+    both[CALCIFIED] = (("x", "phi"), calcified, {"units": "1", "long_name": "inside the calcification"})
     for axis, (unit, words) in _AXES.items():
         both[axis].attrs = {"units": unit, "long_name": words}
     return both

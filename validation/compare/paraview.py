@@ -16,10 +16,10 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFWriter
 
 from cases.arrays import Floats, Integers
+from cases.fields import CELL, FIELDS
+from cases.quantities import tabulated
+from cases.results.comparison_file import CALCIFIED, MODELS, WALL_STIFFNESS, variable
 from validation.errors import ValidationError
-from validation.metrics.rows import CELL_QUANTITIES
-
-MODELS = ("rom", "reference")
 
 
 def edges(centres: Floats) -> Floats:
@@ -62,12 +62,13 @@ class _Wall(VTKPythonAlgorithmBase):
         )
         self._times = both["time"].to_numpy().tolist()
         self._axes = both["x"].to_numpy(), both["phi"].to_numpy()
-        self._fields = {name: both[f"{model}_{name}"].to_numpy() for name in CELL_QUANTITIES}
+        cells = [name for name in tabulated() if FIELDS[name].dims == CELL]
+        self._fields = {name: both[variable(model, name)].to_numpy() for name in cells}
         quads = quadrilaterals(*(axis.size for axis in self._axes))
         self._faces = np.column_stack([np.full(len(quads), 4), quads]).ravel()
         self._still = {
-            "wall_stiffness": both["wall_stiffness"].to_numpy().astype(np.float32),
-            "calcified": both["calcified"].to_numpy(),
+            WALL_STIFFNESS: both[WALL_STIFFNESS].to_numpy().astype(np.float32),
+            CALCIFIED: both[CALCIFIED].to_numpy(),
         }
 
     def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:
@@ -128,7 +129,7 @@ def write_walls(directory: Path, variant: str, both: xr.Dataset) -> None:
         If a file cannot be written.
     """
     for model in MODELS:
-        if np.any(np.isnan(both[f"{model}_radius"])):
+        if np.any(np.isnan(both[variable(model, "radius")])):
             continue
         source = _Wall(model, both)
         path = directory / f"{model}_{variant}.vtkhdf"

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pandas as pd
 
+from cases.results.metric_row import MetricRow
 from validation.errors import ValidationError
-from validation.metrics.rows import Row, to_frame
+from validation.metrics.rows import to_frame
 from validation.runs.output import write_text
 
 POOLED = ("rms_error", "bias", "bias_low", "bias_high", "scatter", "rms_difference", "change_rms", "cycle")
@@ -15,7 +16,7 @@ FIGURES = ["rom", "reference", "error", "band", "status"]
 STEM = "side_by_side"
 
 
-def side_by_side(cases: Mapping[str, Sequence[Row]]) -> pd.DataFrame:
+def side_by_side(cases: Mapping[str, Sequence[MetricRow]]) -> pd.DataFrame:
     """Pooled figures and bands of several cases, a line per variant, quantity and statistic.
 
     Parameters
@@ -37,7 +38,7 @@ def side_by_side(cases: Mapping[str, Sequence[Row]]) -> pd.DataFrame:
     return pd.concat(tables, axis=1, sort=False).reset_index()
 
 
-def write_side_by_side(folder: Path, cases: Mapping[str, Sequence[Row]]) -> list[Path]:
+def write_side_by_side(folder: Path, cases: Mapping[str, Sequence[MetricRow]]) -> list[Path]:
     """Write ``side_by_side.csv`` and ``.json`` (a list of lines) to a folder; returns their paths.
 
     Raises

@@ -13,7 +13,7 @@ from solver.case.model import grid_of
 from solver.case.run import run_case
 from validation.converge.convergence import Convergence, convergence
 from validation.errors import ValidationError
-from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
+from validation.metrics.quantities import CYCLE_QUANTITIES
 from validation.reference.kind import Progress
 from validation.runs.instants import wanted_instants
 

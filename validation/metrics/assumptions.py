@@ -5,13 +5,14 @@ from typing import Any
 
 import numpy as np
 
-from validation.metrics.rows import Models, Row
+from cases.results.metric_row import MetricRow, metric_row
+from validation.metrics.rows import Models
 
 BY_SECTION = ("axis_velocity_spread", "section_pressure_range")
 BY_STATE = ("mass_defect", "backflow_fraction")
 
 
-def assumption_rows(models: Models, attributes: Mapping[str, Any]) -> Iterator[Row]:
+def assumption_rows(models: Models, attributes: Mapping[str, Any]) -> Iterator[MetricRow]:
     """Continuity on the axis, pressure over a section, mass and backflow at the tabulated instants."""
     if models.sparse:
         return
@@ -31,14 +32,14 @@ def _at(fields: Any, quantity: str, at: Any) -> float | None:
     return float(fields[quantity].to_numpy()[at]) if quantity in fields else None
 
 
-def _pressure_over_pulse(models: Models) -> Row:
+def _pressure_over_pulse(models: Models) -> MetricRow:
     """Largest difference of pressure within a section over the pulse pressure of the same model."""
     shares = []
     for fields, pulse in zip((models.rom, models.reference), models.of_cycle("pulse_pressure"), strict=True):
         largest = float(fields["section_pressure_range"].max())
         shares.append(largest / pulse if pulse else None)
     rom, reference = shares
-    return Row(
+    return metric_row(
         models.case,
         models.variant,
         "section_pressure_range",

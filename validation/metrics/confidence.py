@@ -4,16 +4,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cases.quantities import tabulated
+from cases.results.metric_row import MetricRow
 from validation.metrics.bootstrap import mean_interval
-from validation.metrics.rows import CELL_QUANTITIES, SECTION_QUANTITIES, Models, Row
+from validation.metrics.rows import Models
 from validation.metrics.statistics import relative_error
 
 SAME_INSTANT = 1e-3  # share of a cycle by which its two ends may miss each other
 
 
-def confidence_rows(models: Models) -> Iterator[Row]:
+def confidence_rows(models: Models) -> Iterator[MetricRow]:
     """Limits of the bias with 95 % confidence, and the cell whose error over the cycle is largest."""
-    for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
+    for quantity in tabulated():
         rom, reference = models.pair(quantity)
         error = None if models.sparse else relative_error(rom, reference)
         low, high = (None, None) if error is None else mean_interval(_each_instant(models, error))
@@ -31,7 +33,7 @@ def _each_instant(models: Models, error: np.ndarray) -> np.ndarray:
     return np.asarray(series[:-1] if closed else series)
 
 
-def _worst_cell(models: Models, quantity: str, error: np.ndarray) -> Row:
+def _worst_cell(models: Models, quantity: str, error: np.ndarray) -> MetricRow:
     """Cell with the largest RMS error over the cycle."""
     rms = np.sqrt(np.mean(error**2, axis=0))
     at = np.unravel_index(int(np.argmax(rms)), rms.shape)

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from validation.metrics.rows import Models, Row
+from cases.results.metric_row import MetricRow
+from validation.metrics.rows import Models
 from validation.metrics.statistics import relative_error, rms
 
 
@@ -21,7 +22,7 @@ def curved_flow_rate(fields: xr.Dataset) -> xr.DataArray:
     return (0.5 * dphi * fields["mean_velocity"] * fields["radius"] ** 2).sum("phi", skipna=False)
 
 
-def curved_section_rows(models: Models, attributes: Mapping[str, Any]) -> Iterator[Row]:
+def curved_section_rows(models: Models, attributes: Mapping[str, Any]) -> Iterator[MetricRow]:
     """Error of the 2D section flow against it: at the tabulated sections and instants, and pooled."""
     if models.sparse:
         return

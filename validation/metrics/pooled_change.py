@@ -4,7 +4,9 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from validation.metrics.rows import CELL_QUANTITIES, SECTION_QUANTITIES, Models, Row
+from cases.quantities import tabulated
+from cases.results.metric_row import MetricRow
+from validation.metrics.rows import Models
 from validation.metrics.statistics import rms
 
 
@@ -13,7 +15,7 @@ def without_rays(models: Models) -> Models:
     kept = {}
     for side in ("rom", "reference"):
         fields = getattr(models, side)
-        names = [name for name in (*CELL_QUANTITIES, *SECTION_QUANTITIES) if name in fields]
+        names = [name for name in tabulated() if name in fields]
         kept[side] = fields[names].drop_vars("y", errors="ignore")
     return Models(
         models.case,
@@ -26,7 +28,7 @@ def without_rays(models: Models) -> Models:
     )
 
 
-def pooled_change_rows(variants: Mapping[str, Models], baselines: Mapping[str, str]) -> Iterator[Row]:
+def pooled_change_rows(variants: Mapping[str, Models], baselines: Mapping[str, str]) -> Iterator[MetricRow]:
     """Root mean square over all cells and instants of each model's change from the baseline.
 
     ``error`` is that of the difference between both models' changes, over the reference's change.
@@ -41,7 +43,7 @@ def pooled_change_rows(variants: Mapping[str, Models], baselines: Mapping[str, s
         baseline = variants.get(baselines.get(name, name))
         if baseline is None or baseline is models or models.sparse:
             continue
-        for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
+        for quantity in tabulated():
             here, there = models.pair(quantity), baseline.pair(quantity)
             rom, reference = (_change(new, old) for new, old in zip(here, there, strict=True))
             if rom is None or reference is None:

@@ -7,13 +7,14 @@ import numpy as np
 import xarray as xr
 
 from cases.arrays import Floats
+from cases.results.comparison_file import CURVE_DIMS
+from cases.results.metric_row import MetricRow
 from validation.mapping.meshed_profiles import meshed_shapes
 from validation.mapping.nodal_shares import RINGS, TwoRings
 from validation.mapping.profiles import errors_at, errors_of
-from validation.metrics.rows import Models, Row
+from validation.metrics.rows import Models
 
 EXPONENTS = np.geomspace(0.5, 50.0, 121)
-CURVE = "reference_profile_error_curve"
 
 
 def _profiles(models: Models, attributes: Mapping[str, Any]) -> tuple[xr.DataArray, list[int]]:
@@ -51,7 +52,7 @@ def error_curves(models: Models, attributes: Mapping[str, Any]) -> xr.DataArray:
     curves = _errors(models, chosen, states, np.broadcast_to(EXPONENTS, (count, EXPONENTS.size)))
     return xr.DataArray(
         curves.reshape(*chosen.shape[:-1], EXPONENTS.size),
-        dims=("compare_time", "compare_x", "compare_phi", "exponent"),
+        dims=CURVE_DIMS,
         coords={
             "compare_time": ("compare_time", chosen["time"].to_numpy(), {"units": "s"}),
             "compare_x": ("compare_x", chosen["x"].to_numpy(), {"units": "m"}),
@@ -62,7 +63,7 @@ def error_curves(models: Models, attributes: Mapping[str, Any]) -> xr.DataArray:
     )
 
 
-def profile_rows(models: Models, attributes: Mapping[str, Any]) -> Iterator[Row]:
+def profile_rows(models: Models, attributes: Mapping[str, Any]) -> Iterator[MetricRow]:
     """Error of the profile closest to 3D (``reference``), and of that with the 2D model's γ (``rom``)."""
     chosen, states = _profiles(models, attributes)
     if np.all(np.isnan(chosen)):

@@ -10,36 +10,15 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.fields import FIELDS
-from validation.metrics.cycle_quantities import CYCLE_QUANTITIES, phase_lag
-from validation.metrics.statistics import DIFFERENCES, EXTREMES, POOLED, extreme_error, relative_error
+from cases.quantities import of_cycle, pooled, reads, statistics_of, tabulated
+from cases.results.comparison_file import MODELS, variable
+from cases.results.metric_row import COLUMNS, MetricRow, metric_row
+from cases.statistics import statistic_of
+from validation.metrics.phase_lag import phase_lag
+from validation.metrics.quantities import CYCLE_QUANTITIES, DERIVED_QUANTITIES
+from validation.metrics.statistics import EXTREMES, relative_error, statistic_value
 
-COLUMNS = [
-    *("case", "variant", "quantity", "statistic", "i", "j", "t_s"),
-    *("rom", "reference", "error", "unit", "band", "status"),
-]
-CELL_QUANTITIES = ("pressure", "radius", "mean_velocity", "sector_flow_rate", "profile_exponent")
-SHARE, QUOTIENT = "sector_flow_share", ("sector_flow_rate", "section_flow_rate")  # in no dataset itself
-SECTION_QUANTITIES = ("section_flow_rate", "section_pressure")
 DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")
-
-
-@dataclass(frozen=True)
-class Row:
-    """One figure; i and j count from 1, t_s from the cycle's start, values in ``unit``."""
-
-    case: str
-    variant: str
-    quantity: str
-    statistic: str
-    i: int | None = None
-    j: int | None = None
-    t_s: float | None = None
-    rom: float | None = None
-    reference: float | None = None
-    error: float | None = None
-    unit: str = ""
-    band: float | None = None
-    status: str = ""
 
 
 @dataclass(frozen=True)
@@ -60,13 +39,13 @@ class Models:
 
     def has(self, quantity: str) -> bool:
         """Whether both models have a quantity."""
-        parts = QUOTIENT if quantity == SHARE else (quantity,)
-        return all(name in self.rom and name in self.reference for name in parts)
+        return all(name in self.rom and name in self.reference for name in reads(quantity))
 
     def pair(self, quantity: str) -> tuple[Floats, Floats]:
         """Values of a quantity in both models, float64."""
-        if quantity == SHARE:
-            return sector_share(self.rom), sector_share(self.reference)
+        if quantity in DERIVED_QUANTITIES:
+            derive = DERIVED_QUANTITIES[quantity]
+            return derive(self.rom), derive(self.reference)
         rom, reference = self.rom[quantity], self.reference[quantity]
         return rom.to_numpy().astype(float), reference.to_numpy().astype(float)
 
@@ -77,7 +56,7 @@ class Models:
             rom, reference = rom[there], reference[there]
             if not reference.size or name in EXTREMES:  # a few instants have no systole
                 return None
-        return pooled(name, rom, reference)
+        return statistic_value(name, rom, reference)
 
     def of_cycle(self, quantity: str) -> tuple[float, float | None]:
         """One number of the cycle in both models."""
@@ -86,20 +65,11 @@ class Models:
             return measure(self.rom), self.stated.get(quantity)
         return measure(self.rom), measure(self.reference)
 
-    def row(self, quantity: str, statistic: str, **values: Any) -> Row:
+    def row(self, quantity: str, statistic: str, **values: Any) -> MetricRow:
         """Row of this variant; its unit is that of values, or of an absolute error."""
-        has_unit = statistic in DIFFERENCES or "rom" in values or "reference" in values
+        has_unit = not statistic_of(statistic).relative or "rom" in values or "reference" in values
         unit = FIELDS[quantity].unit if has_unit else "1"
-        return Row(self.case, self.variant, quantity, statistic, unit=unit, **values)
-
-
-def sector_share(fields: xr.Dataset) -> Floats:
-    """Flow rate through each sector over its section's mean, (n_t, n_x, n_phi); NaN where that is zero."""
-    sector, section = (fields[name].to_numpy() for name in QUOTIENT)
-    mean = section[..., None].astype(float) / sector.shape[-1]
-    share: Floats = np.full(sector.shape, np.nan)
-    np.divide(sector, mean, out=share, where=mean != 0)
-    return share
+        return metric_row(self.case, self.variant, quantity, statistic, unit=unit, **values)
 
 
 def models_of(case: str, variant: str, both: xr.Dataset, period: float, **about: Any) -> Models:
@@ -108,8 +78,8 @@ def models_of(case: str, variant: str, both: xr.Dataset, period: float, **about:
     ``about``: ``sparse`` and ``stated`` of :class:`Models`.
     """
     parts = {}
-    for model in ("rom", "reference"):
-        prefix = f"{model}_"
+    for model in MODELS:
+        prefix = variable(model, "")
         names = {str(n): str(n).removeprefix(prefix) for n in both.data_vars if str(n).startswith(prefix)}
         parts[model] = both[list(names)].rename(names)
     return Models(case, variant, parts["rom"], parts["reference"], period, **about)
@@ -127,12 +97,12 @@ def _number(value: float) -> float | None:
     return None if np.isnan(value) else float(value)
 
 
-def value_rows(models: Models, cells: tuple[Floats, Floats], times: Floats) -> Iterator[Row]:
+def value_rows(models: Models, cells: tuple[Floats, Floats], times: Floats) -> Iterator[MetricRow]:
     """Values of both models at the chosen cells and instants."""
     states = [int(np.argmin(np.abs(models.rom["time"].to_numpy() - t))) for t in times]
-    for quantity in (*CELL_QUANTITIES, *SECTION_QUANTITIES):
+    for quantity in tabulated():
         rom, reference = models.pair(quantity)
-        rows_j = [None] if quantity in SECTION_QUANTITIES else list(cells[1])
+        rows_j = _rows_of(quantity, cells)
         for i in cells[0]:
             for j in rows_j:
                 for t, n in zip(times, states, strict=True):
@@ -149,11 +119,16 @@ def value_rows(models: Models, cells: tuple[Floats, Floats], times: Floats) -> I
                     )
 
 
-def cycle_error_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row]:
+def _rows_of(quantity: str, cells: tuple[Floats, Floats]) -> list[Any]:
+    """Chosen rows j of a quantity; one None for a quantity of whole sections."""
+    return list(cells[1]) if "phi" in FIELDS[quantity].dims else [None]
+
+
+def cycle_error_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[MetricRow]:
     """Errors over the cycle at each chosen cell."""
-    for quantity in (*CELL_QUANTITIES, SHARE, *SECTION_QUANTITIES):
+    for quantity in pooled():
         rom, reference = models.pair(quantity)
-        rows_j = [None] if quantity in SECTION_QUANTITIES else list(cells[1])
+        rows_j = _rows_of(quantity, cells)
         for i in cells[0]:
             for j in rows_j:
                 at = np.s_[:, i - 1] if j is None else np.s_[:, i - 1, j - 1]
@@ -163,27 +138,16 @@ def cycle_error_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[R
                     yield models.row(quantity, statistic, error=error, **where)
 
 
-def pooled(statistic: str, rom: Floats, reference: Floats) -> float | None:
-    """Value of a statistic over all entries; None where it has no meaning."""
-    if statistic in EXTREMES:
-        return extreme_error(statistic, rom, reference)
-    if statistic in DIFFERENCES:
-        difference = rom - reference
-        return DIFFERENCES[statistic](difference) if np.all(np.isfinite(difference)) else None
-    error = relative_error(rom, reference)
-    return None if error is None else POOLED[statistic](error)
-
-
-def pooled_rows(models: Models) -> Iterator[Row]:
+def pooled_rows(models: Models) -> Iterator[MetricRow]:
     """Statistics over all cells and states; for the largest error, where and when it is."""
-    for quantity in (*CELL_QUANTITIES, SHARE, *SECTION_QUANTITIES):
+    for quantity in pooled():
         rom, reference = models.pair(quantity)
-        for statistic in (*POOLED, *EXTREMES, *DIFFERENCES):
+        for statistic in statistics_of(quantity):
             row = models.row(quantity, statistic, error=models.statistic(statistic, rom, reference))
             yield _with_place(row, models, rom, reference) if statistic.startswith("max_") else row
 
 
-def _with_place(row: Row, models: Models, rom: Floats, reference: Floats) -> Row:
+def _with_place(row: MetricRow, models: Models, rom: Floats, reference: Floats) -> MetricRow:
     """Add cell, instant and values of the largest error."""
     if row.error is None:
         return row
@@ -200,16 +164,16 @@ def _with_place(row: Row, models: Models, rom: Floats, reference: Floats) -> Row
     )
 
 
-def cycle_rows(models: Models) -> Iterator[Row]:
+def cycle_rows(models: Models) -> Iterator[MetricRow]:
     """One number per cycle."""
-    for quantity in CYCLE_QUANTITIES:
+    for quantity in of_cycle():
         rom, reference = models.of_cycle(quantity)
         yield models.row(quantity, "cycle", rom=rom, reference=reference, error=_single(rom, reference))
     if not models.sparse:
         yield models.row("phase_lag", "cycle", rom=phase_lag(models.rom, models.reference, models.period))
 
 
-def check_rows(models: Models) -> Iterator[Row]:
+def check_rows(models: Models) -> Iterator[MetricRow]:
     """Tell whether the reduced model's assumptions, and both simulations, hold."""
     for quantity in ("mass_defect", "axis_velocity_spread", "section_pressure_range"):
         rom, reference = models.pair(quantity)
@@ -234,7 +198,7 @@ def _largest(values: Floats) -> float | None:
     return None if np.all(np.isnan(values)) else float(np.nanmax(np.abs(values)))
 
 
-def dominance_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row]:
+def dominance_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[MetricRow]:
     """Axial dominance at the chosen cells (tables 3.10 and 3.11)."""
     for quantity in DOMINANCE:
         values = models.reference[quantity].to_numpy()
@@ -246,7 +210,7 @@ def dominance_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[Row
                 yield models.row(quantity, "value", i=int(i), j=int(j), rom=estimate, reference=ratio)
 
 
-def plane_rows(models: Models, checks: xr.Dataset) -> Iterator[Row]:
+def plane_rows(models: Models, checks: xr.Dataset) -> Iterator[MetricRow]:
     """3D section flow by rays (``reference``), and its deviation from planes cut by VTK (``error``)."""
     if "plane_flow_rate" not in checks:
         return
@@ -260,7 +224,7 @@ def plane_rows(models: Models, checks: xr.Dataset) -> Iterator[Row]:
             yield models.row("section_flow_rate", "plane_integral", error=_single(q, plane), **place)
 
 
-def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -> Iterator[Row]:
+def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -> Iterator[MetricRow]:
     """3D inflow by surface integral (``reference``), and its deviation from the prescribed (``error``)."""
     if prescribed is None:
         return
@@ -276,7 +240,7 @@ def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -
         )
 
 
-def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) -> Iterator[Row]:
+def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) -> Iterator[MetricRow]:
     """Tell what a simulation took, where its log does; the reduced model's wall times differ from run to run.
 
     Parameters
@@ -292,12 +256,12 @@ def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) ->
     yield models.row("iterations", "cost", reference=float(cost["iterations"]))
 
 
-def change_rows(rows: list[Row], baselines: Mapping[str, str]) -> Iterator[Row]:
+def change_rows(rows: list[MetricRow], baselines: Mapping[str, str]) -> Iterator[MetricRow]:
     """Values and cycle quantities minus, and over, the baseline's: what calcification changes.
 
     Parameters
     ----------
-    rows : list of Row
+    rows : list of MetricRow
         Of all variants.
     baselines : mapping of str to str
         By variant, the one to compare it with.
@@ -315,7 +279,7 @@ def change_rows(rows: list[Row], baselines: Mapping[str, str]) -> Iterator[Row]:
             yield from _change(row, other)
 
 
-def _change(row: Row, base: Row) -> Iterator[Row]:
+def _change(row: MetricRow, base: MetricRow) -> Iterator[MetricRow]:
     if row.rom is None or row.reference is None or base.rom is None or base.reference is None:
         return
     rom, reference = row.rom - base.rom, row.reference - base.reference
@@ -327,7 +291,7 @@ def _change(row: Row, base: Row) -> Iterator[Row]:
         )
 
 
-def to_frame(rows: list[Row]) -> pd.DataFrame:
+def to_frame(rows: list[MetricRow]) -> pd.DataFrame:
     """Rows as a table with the columns of the harness, in their order; missing entries are null."""
     table = pd.DataFrame([vars(row) for row in rows], columns=COLUMNS)
     numbers = ["t_s", "rom", "reference", "error", "band"]

@@ -1,4 +1,4 @@
-"""How far two series are apart: the statistics of metrics and bands.
+"""Statistics of how far two series are apart, by the names of `cases.statistics`.
 
 Relative errors are (2D − 3D)/3D, instant by instant, as Boileau et al. (2015) use them for 1D against 3D.
 """
@@ -41,13 +41,13 @@ def scatter(error: Floats) -> float:
     return float(np.std(error))
 
 
-POOLED: dict[str, Callable[[Floats], float]] = {
+OF_ERROR: dict[str, Callable[[Floats], float]] = {
     "rms_error": rms,
     "max_error": largest,
     "bias": bias,
     "scatter": scatter,
 }
-DIFFERENCES: dict[str, Callable[[Floats], float]] = {"rms_difference": rms, "max_difference": largest}
+OF_DIFFERENCE: dict[str, Callable[[Floats], float]] = {"rms_difference": rms, "max_difference": largest}
 EXTREMES = ("systolic_error", "diastolic_error")
 
 
@@ -56,3 +56,14 @@ def extreme_error(statistic: str, rom: Floats, reference: Floats) -> float | Non
     choose = np.max if statistic == "systolic_error" else np.min
     error = relative_error(np.atleast_1d(choose(rom)), np.atleast_1d(choose(reference)))
     return None if error is None else float(error[0])
+
+
+def statistic_value(statistic: str, rom: Floats, reference: Floats) -> float | None:
+    """Value of a statistic over all entries; None where it has no meaning."""
+    if statistic in EXTREMES:
+        return extreme_error(statistic, rom, reference)
+    if statistic in OF_DIFFERENCE:
+        difference = rom - reference
+        return OF_DIFFERENCE[statistic](difference) if np.all(np.isfinite(difference)) else None
+    error = relative_error(rom, reference)
+    return None if error is None else OF_ERROR[statistic](error)

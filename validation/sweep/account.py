@@ -5,8 +5,8 @@ import json
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, Literal
 
+from cases.results.sweep import DrawnDesign, SampleCounts, SobolIndex, State, SweepAccount
 from validation.runs.cached import canonical, code_digest
 from validation.runs.output import write_json, write_text
 from validation.runs.provenance import git_commit, installed, shown_path
@@ -15,7 +15,6 @@ from validation.sweep.folder import ACCOUNT, STUDY, Counts, writing
 from validation.sweep.judging import STATES
 from validation.sweep.study import Study
 
-State = Literal["running", "interrupted", "finished"]
 LIBRARIES = ("dask", "distributed", "numba", "numpy", "pyarrow", "SALib", "scipy", "xarray")
 
 
@@ -33,37 +32,39 @@ def digest_of(study: Study, chunks: Sequence[range]) -> str:
     return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
 
 
-def account_of(study: Study, digest: str, total: int, chunk: int) -> dict[str, Any]:
+def account_of(study: Study, digest: str, total: int, chunk: int) -> SweepAccount:
     """Return what is known before the first sample."""
-    return {
-        "name": study.name,
-        "title": study.title,
-        "base_case": shown_path(study.base),
-        "variants": {name: case.title for name, case in study.cases.items()},
-        "created": datetime.now(UTC).isoformat(timespec="seconds"),
-        "git_commit": git_commit(Path(__file__).parent),
-        "versions": {name: found for name in LIBRARIES if (found := installed(name))},
-        "digest": digest,
-        "design": {
-            "kind": study.design.kind,
-            "samples": total,
-            "count": study.design.count,
-            "seed": study.design.seed,
-            "chunk": chunk,
-        },
-        "against": study.against,
-        "states_per_cycle": None if study.against == "reference" else STATES,
-        "parameters": [parameters.described(parameter) for parameter in study.parameters],
-        "outputs": [outputs.described(output) for output in study.outputs],
-    }
+    return SweepAccount(
+        name=study.name,
+        title=study.title,
+        base_case=shown_path(study.base),
+        variants={name: case.title for name, case in study.cases.items()},
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        git_commit=git_commit(Path(__file__).parent),
+        versions={name: found for name in LIBRARIES if (found := installed(name))},
+        digest=digest,
+        design=DrawnDesign(
+            kind=study.design.kind,
+            samples=total,
+            count=study.design.count,
+            seed=study.design.seed,
+            chunk=chunk,
+        ),
+        against=study.against,
+        states_per_cycle=None if study.against == "reference" else STATES,
+        parameters=tuple(parameters.described(parameter) for parameter in study.parameters),
+        outputs=tuple(outputs.described(output) for output in study.outputs),
+        state="running",
+        counts=SampleCounts(done=0, failed=0, total=total),
+    )
 
 
 def write_account(
     folder: Path,
-    account: dict[str, Any],
+    account: SweepAccount,
     state: State,
     counts: Counts,
-    sensitivity: list[dict[str, Any]] | None = None,
+    sensitivity: tuple[SobolIndex, ...] | None = None,
 ) -> None:
     """Write study.json with how far the sweep is.
 
@@ -72,11 +73,10 @@ def write_account(
     ValidationError
         If it cannot be written.
     """
-    total = account["design"]["samples"]
-    progress = {"done": counts.done, "failed": counts.failed, "total": total}
+    progress = SampleCounts(done=counts.done, failed=counts.failed, total=account.design.samples)
     found = {"state": state, "counts": progress, "sensitivity": sensitivity}
     with writing(folder / ACCOUNT):
-        write_json(folder / ACCOUNT, account | found)
+        write_json(folder / ACCOUNT, account.model_copy(update=found).written())
 
 
 def write_study(folder: Path, study: Study) -> None:

@@ -9,14 +9,14 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.fields import FIELDS
+from cases.quantities import reads
 from cases.sections.case import Case
-from cases.sections.compare import Band, ComparedQuantity
+from cases.sections.compare import Band
 from solver.case.model import grid_of
 from validation.ablation.ladder import coupled_model
 from validation.errors import ValidationError
 from validation.mapping.rays import rays
 from validation.metrics.bands import judged_value
-from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
 from validation.metrics.rows import Models
 from validation.reference.kind import Progress
 from validation.reference.kinds import kind_of
@@ -26,12 +26,7 @@ from validation.runs.cached import cached_reference
 Against = Literal["none", "coupled", "reference"]
 
 STATES = 100  # instants of the last cycle in which extremes are looked for
-ALWAYS: tuple[ComparedQuantity, ...] = (
-    "radius",
-    "section_flow_rate",
-    "sector_flow_rate",
-    "pressure",
-)  # told also without a band
+ALWAYS = ("radius", "section_flow_rate", "sector_flow_rate", "pressure")  # told also without a band
 UNJUDGED = np.inf  # limit of what no band limits
 # numbers that a 3D run has too: it says nothing of samples with others
 OF_THE_REFERENCE = (
@@ -115,7 +110,7 @@ def judged_bands(cases: Mapping[str, Case], against: Against) -> list[tuple[Band
     return list((told | {key: tuple(bands) for key, bands in declared.items() if bands}).values())
 
 
-def _unlimited(quantity: ComparedQuantity) -> Band:
+def _unlimited(quantity: str) -> Band:
     return Band.model_construct(
         None, quantity=quantity, statistic="rms_error", limit=UNJUDGED, reason="", variants=None
     )
@@ -133,7 +128,7 @@ def standards(
     """
     if against != "reference":
         return {name: Standard(against, name) for name in cases}
-    quantities = {str(band.quantity) for band in bands}
+    quantities = {band.quantity for band in bands}
     return {name: _of_reference(name, case, quantities, cache, watch) for name, case in cases.items()}
 
 
@@ -145,8 +140,8 @@ def _of_reference(
     found = cached_reference(cache, kind, case, points, watch.progress, alignment, watch.remark)
     for warning in found.warnings:
         watch.remark(f"{name}: {warning}")
-    cycle = {"section_pressure", "radius"} if quantities & set(CYCLE_QUANTITIES) else set()
-    kept = [name for name in sorted(quantities | cycle) if name in found.fields]
+    needed = {name for quantity in quantities for name in reads(quantity)}
+    kept = [name for name in sorted(needed) if name in found.fields]
     fields = found.fields[kept].load()
     return Standard("reference", name, alignment.rom_times, fields, found.sparse, found.cycle)
 

@@ -3,16 +3,17 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
+from cases.results.sweep import KeptOutput, OutputBand
 from cases.sections.case import Case, LocalCalcification, NoCalcification
 from cases.sections.compare import Band
-from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
+from cases.statistics import statistic_of
+from validation.metrics.quantities import CYCLE_QUANTITIES
 from validation.sweep.judging import Against, judged_bands
 
 Measure = Callable[[Case, xr.Dataset], float]
@@ -147,25 +148,12 @@ def _own_outputs() -> dict[str, tuple[Output, Measure]]:
 
 OWN: Mapping[str, tuple[Output, Measure]] = MappingProxyType(_own_outputs())
 
-STATISTICS = MappingProxyType(
-    {
-        "rms_error": "RMS error",
-        "max_error": "largest error",
-        "bias": "mean error",
-        "scatter": "scatter of the error",
-        "systolic_error": "systolic error",
-        "diastolic_error": "diastolic error",
-        "rms_difference": "RMS difference",
-        "max_difference": "largest difference",
-    }
-)
-
 
 def judged_output(bands: tuple[Band, ...]) -> Output:
     """Return the output that bands of one quantity and one statistic judge."""
     band = bands[0]
     name, field = f"{band.quantity}_{band.statistic}", FIELDS[band.quantity]
-    label = f"{STATISTICS[band.statistic]} of the {field.label}"
+    label = f"{statistic_of(band.statistic).of_quantity} of the {field.label}"
     if band.relative:
         return Output(name, label, "1", "%", 100.0, bands)
     return Output(name, label, field.unit, field.display_unit, field.display_factor, bands)
@@ -181,15 +169,15 @@ def offered_outputs(cases: Mapping[str, Case], against: Against) -> dict[str, Ou
     return own | {output.name: output for output in judged}
 
 
-def described(output: Output) -> dict[str, Any]:
-    """Return an output for study.json: with the limits and reasons of the bands that judge it."""
+def described(output: Output) -> KeptOutput:
+    """Return an output for study.json: with the limit and reason of the band that judges it."""
     declared = [band for band in output.bands if np.isfinite(band.limit)]
-    limits = [{"limit": b.limit, "reason": b.reason, "variants": b.variants} for b in declared]
-    return {
-        "name": output.name,
-        "label": output.label,
-        "unit": output.display_unit,
-        "unit_si": output.unit,
-        "display_factor": output.display_factor,
-        "band": limits[0] if limits else None,
-    }
+    limits = [OutputBand(limit=b.limit, reason=b.reason, variants=b.variants) for b in declared]
+    return KeptOutput(
+        name=output.name,
+        label=output.label,
+        unit=output.display_unit,
+        unit_si=output.unit,
+        display_factor=output.display_factor,
+        band=limits[0] if limits else None,
+    )

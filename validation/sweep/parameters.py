@@ -4,13 +4,13 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 from scipy import stats
 
 from cases.arrays import Floats
 from cases.reading.numeric_keys import NumericKey
+from cases.results.sweep import VariedParameter
 from validation.sweep.display import Display
 
 MOST_VALUES = 100_000
@@ -99,20 +99,20 @@ QUANTILES: Mapping[str, Callable[[Mapping[str, float], Floats], Floats]] = Mappi
 )
 
 
-def described(parameter: Parameter) -> dict[str, Any]:
+def described(parameter: Parameter) -> VariedParameter:
     """Return a parameter for study.json; numbers in SI, null for an end that a distribution lacks."""
     low, high = (end if math.isfinite(end) else None for end in parameter.limits)
-    values = None if parameter.values is None else parameter.values.tolist()
-    return {
-        "name": parameter.name,
-        "label": parameter.label,
-        "unit": parameter.display.unit,
-        "unit_si": parameter.key.kind.unit,
-        "display_factor": parameter.display.factor,
-        "kind": parameter.kind,
-        **parameter.numbers,
-        "low": low,
-        "high": high,
-        "values": values,
-        "base": parameter.key.value,
-    }
+    own = {name: number for name, number in parameter.numbers.items() if name not in ("low", "high")}
+    return VariedParameter(
+        name=parameter.name,
+        label=parameter.label,
+        unit=parameter.display.unit,
+        unit_si=parameter.key.kind.unit,
+        display_factor=parameter.display.factor,
+        kind=parameter.kind,
+        low=low,
+        high=high,
+        values=None if parameter.values is None else tuple(parameter.values.tolist()),
+        base=parameter.key.value,
+        **own,
+    )

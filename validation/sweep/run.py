@@ -10,6 +10,7 @@ import pyarrow as pa
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from cases.results.sweep import SweepAccount
 from validation.errors import ValidationError
 from validation.reference.generated import check_computed
 from validation.runs.cache import open_cache
@@ -129,7 +130,7 @@ class _Keeper:
 
     folder: Path
     schema: pa.Schema
-    account: dict[str, object]
+    account: SweepAccount
     counts: Counts
     written: float
 

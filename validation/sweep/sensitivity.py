@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from cases.arrays import Floats
+from cases.results.sweep import SobolIndex
 from validation.sweep.design import unit_cube
 from validation.sweep.folder import all_records
 from validation.sweep.study import Study
@@ -16,7 +16,7 @@ FEWEST_GROUPS = 8  # base samples without a failure, for intervals that mean som
 STEADY = 1e-12  # relative standard deviation of an output that does not vary
 
 
-def sensitivity(study: Study, folder: Path) -> list[dict[str, Any]] | None:
+def sensitivity(study: Study, folder: Path) -> tuple[SobolIndex, ...] | None:
     """Return first-order and total indices with their confidence; None for other designs.
 
     A base sample of which a run failed or an output has no meaning is left out with all its runs, so that the
@@ -27,14 +27,14 @@ def sensitivity(study: Study, folder: Path) -> list[dict[str, Any]] | None:
     names = [output.name for output in study.outputs]
     table = all_records(folder, ["variant", *names])
     variants = np.array(table["variant"].to_pylist())
-    return [
+    return tuple(
         row
         for variant in study.templates
         for name in names
         for row in _indices(
             study, variant, name, np.array(table[name].to_numpy(), dtype=float)[variants == variant]
         )
-    ]
+    )
 
 
 def whole_groups(values: Floats, parameters: int) -> Floats:
@@ -43,7 +43,7 @@ def whole_groups(values: Floats, parameters: int) -> Floats:
     return groups[np.all(np.isfinite(groups), axis=1)]
 
 
-def _indices(study: Study, variant: str, output: str, values: Floats) -> Iterator[dict[str, Any]]:
+def _indices(study: Study, variant: str, output: str, values: Floats) -> Iterator[SobolIndex]:
     from SALib.analyze import sobol  # slow to import
 
     count = len(study.parameters)
@@ -63,10 +63,6 @@ def _indices(study: Study, variant: str, output: str, values: Floats) -> Iterato
             name: None if found is None or not np.isfinite(found[name][place]) else float(found[name][place])
             for name in ("S1", "S1_conf", "ST", "ST_conf")
         }
-        yield {
-            "variant": variant,
-            "output": output,
-            "parameter": parameter.name,
-            **indices,
-            "groups": len(groups),
-        }
+        yield SobolIndex(
+            variant=variant, output=output, parameter=parameter.name, **indices, groups=len(groups)
+        )

@@ -29,7 +29,7 @@ class Entry:
 
 
 @dataclass(frozen=True)
-class Row:
+class Check:
     """One number beside the thesis's.
 
     Attributes
@@ -80,14 +80,14 @@ class Experiment:
     name: str
     title: str
     entries: Sequence[Entry]
-    rows: Callable[[Results], list[Row]]
+    rows: Callable[[Results], list[Check]]
     draw: Callable[[Results, Path], list[Path]] | None = None
 
 
-def within(case: str, quantity: str, unit: str, ours: float, thesis: float, tolerance: float) -> Row:
-    """Row with a relative tolerance."""
+def within(case: str, quantity: str, unit: str, ours: float, thesis: float, tolerance: float) -> Check:
+    """Check with a relative tolerance."""
     allowed = tolerance * abs(thesis)
-    return Row(case, quantity, unit, ours, thesis, thesis - allowed, thesis + allowed)
+    return Check(case, quantity, unit, ours, thesis, thesis - allowed, thesis + allowed)
 
 
 def number(result: Result, name: str) -> float:

@@ -13,17 +13,17 @@ from rich.console import Console
 from rich.table import Table
 
 from validation.runs.output import write_text
-from validation.tables.experiment import Experiment, Row
+from validation.tables.experiment import Check, Experiment
 from validation.tables.store import sources_digest
 
 COLUMNS = ("case", "quantity", "unit", "ours", "thesis", "relative_difference", "low", "high", "met")
 
 
-def _difference(row: Row) -> str:
+def _difference(row: Check) -> str:
     return "" if row.difference is None else f"{100 * row.difference:+.3f} %"
 
 
-def _allowed(row: Row) -> str:
+def _allowed(row: Check) -> str:
     if np.isinf(row.high):
         return f"≥ {row.low:.4g}"
     if row.thesis is None and row.low == 0:
@@ -33,7 +33,7 @@ def _allowed(row: Row) -> str:
     return f"{row.low:.4g} to {row.high:.4g}"
 
 
-def print_rows(console: Console, experiment: Experiment, rows: list[Row]) -> None:
+def print_rows(console: Console, experiment: Experiment, rows: list[Check]) -> None:
     """Show one experiment."""
     table = Table(title=f"{experiment.name}  {experiment.title}", title_justify="left", box=SIMPLE_HEAD)
     for heading in ("case", "quantity"):
@@ -49,7 +49,7 @@ def print_rows(console: Console, experiment: Experiment, rows: list[Row]) -> Non
     console.print(table)
 
 
-def _values(row: Row) -> dict[str, str | float | bool | None]:
+def _values(row: Check) -> dict[str, str | float | bool | None]:
     return {
         "case": row.case,
         "quantity": row.quantity,
@@ -63,7 +63,7 @@ def _values(row: Row) -> dict[str, str | float | bool | None]:
     }
 
 
-def write_csv(path: Path, rows: list[Row]) -> None:
+def write_csv(path: Path, rows: list[Check]) -> None:
     """Write one experiment's rows."""
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
@@ -72,7 +72,7 @@ def write_csv(path: Path, rows: list[Row]) -> None:
     write_text(path, text.getvalue())
 
 
-def write_json(path: Path, rows: dict[str, list[Row]], cpu: dict[str, float]) -> None:
+def write_json(path: Path, rows: dict[str, list[Check]], cpu: dict[str, float]) -> None:
     """Write all rows, what computed them, and the CPU seconds of each entry."""
     content = {
         "sources": sources_digest(),

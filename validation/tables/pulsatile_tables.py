@@ -21,7 +21,7 @@ from validation.tables.artery import (
     thesis_table,
     thesis_waveform,
 )
-from validation.tables.experiment import Entry, Experiment, Result, Results, Row, number, within
+from validation.tables.experiment import Check, Entry, Experiment, Result, Results, number, within
 
 CELLS = (1, 39, 61, 82, 120)
 # Printed times and the ones meant. The third cycle ends at 2.392 s. Tables 3.6 and 3.9 print the same
@@ -61,7 +61,7 @@ def three_cycles(patch: Patch | None, n_phi: int, times: tuple[float, ...], rows
     return result
 
 
-def _section_rows(table: str, entry: str, tolerance: float, results: Results) -> list[Row]:
+def _section_rows(table: str, entry: str, tolerance: float, results: Results) -> list[Check]:
     """Rows of table 3.6 or 3.7."""
     if entry not in results:
         return []
@@ -75,7 +75,7 @@ def _section_rows(table: str, entry: str, tolerance: float, results: Results) ->
     return rows
 
 
-def _sector_rows(results: Results) -> list[Row]:
+def _sector_rows(results: Results) -> list[Check]:
     """Rows of table 3.9: 0.5 % beyond rounding."""
     if "table 3.9" not in results:
         return []
@@ -87,7 +87,7 @@ def _sector_rows(results: Results) -> list[Row]:
             allowed = 0.005 * thesis + HALF_A_DIGIT
             case = f"j = {int(line['j'])}, t = {line['t_s']:.3f} s, i = {cell}"
             rows.append(
-                Row(
+                Check(
                     case,
                     "sector flow rate",
                     "cm^3/s",

@@ -16,7 +16,7 @@ from cases.arrays import Floats
 from solver.marching.godunov import march
 from solver.marching.godunov_setup import reference_state
 from validation.tables.artery import HEALTHY, LENGTH, RADIUS, artery
-from validation.tables.experiment import Entry, Experiment, Result, Results, Row, number, numbers
+from validation.tables.experiment import Check, Entry, Experiment, Result, Results, number, numbers
 from validation.tables.simple_wave import area_error
 
 PRESSURE, DURATION = 1e4, 0.3e-3  # Pa, s
@@ -83,13 +83,13 @@ def _coarse_errors(results: Results, figure: str) -> dict[str, float]:
     return errors
 
 
-def _rows(results: Results) -> list[Row]:
+def _rows(results: Results) -> list[Check]:
     rows = []
     for method, (low, high) in ORDERS.items():
         name = _order_name(method)
         if name in results:
             rows.append(
-                Row(
+                Check(
                     METHODS[method], "order, smooth wave", "", number(results[name], "order"), None, low, high
                 )
             )
@@ -101,12 +101,12 @@ def _rows(results: Results) -> list[Row]:
                 if name in results:
                     variation = number(results[name], f"variation {figure}")
                     case = f"{label}, n_x = {60 * 2**refinement}, {TIMES[figure] * 1e3:g} ms"
-                    rows.append(Row(case, "total variation over exact", "", variation, None, low, high))
+                    rows.append(Check(case, "total variation over exact", "", variation, None, low, high))
         if all(_pulse_name(0, method) in results for method in METHODS):
             errors = _coarse_errors(results, figure)
             ratio = errors["upwind"] / errors["van_leer"]
             case = f"n_x = 60, {TIMES[figure] * 1e3:g} ms"
-            rows.append(Row(case, "error of upwind over high-resolution", "", ratio, None, 1.2, np.inf))
+            rows.append(Check(case, "error of upwind over high-resolution", "", ratio, None, 1.2, np.inf))
     return rows
 
 

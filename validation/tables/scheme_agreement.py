@@ -31,7 +31,7 @@ from validation.tables.artery import (
     ring,
     thesis_waveform,
 )
-from validation.tables.experiment import Entry, Experiment, Result, Results, Row, numbers
+from validation.tables.experiment import Check, Entry, Experiment, Result, Results, numbers
 
 CELLS, CONVERGED = 120, 480  # n_x of the implicit and of the explicit scheme
 STEP = 1e-3  # s, of the implicit scheme
@@ -109,9 +109,9 @@ def difference(pattern: str, converged: Result) -> float:
     return float(np.max(np.abs(ours / theirs - 1)))
 
 
-def _rows(results: Results) -> list[Row]:
+def _rows(results: Results) -> list[Check]:
     return [
-        Row(
+        Check(
             f"{pattern}, n_x = {CELLS} and 1 ms against n_x = {CONVERGED}",
             "largest relative difference of Q",
             "",

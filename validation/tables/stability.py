@@ -15,7 +15,7 @@ from solver.errors import RunFailure
 from solver.marching.godunov import march, march_to_steady, thesis_criteria
 from solver.marching.godunov_setup import held, load, reference_state
 from validation.tables.artery import DIASTOLE, QUARTER_CM, STEADY_OUTLET, artery, quoted, ring
-from validation.tables.experiment import Entry, Experiment, Number, Result, Results, Row, numbers
+from validation.tables.experiment import Check, Entry, Experiment, Number, Result, Results, numbers
 
 RAMP = 8e-3  # s
 GIVE_UP = 0.5  # s
@@ -86,7 +86,7 @@ def _is_stable(model: str, courant: Number) -> bool:
     return courant is not None and courant <= STABLE_COURANT[model]
 
 
-def _limit_rows(results: Results) -> list[Row]:
+def _limit_rows(results: Results) -> list[Check]:
     rows = []
     for model in RUNS:
         points = _curve(model, results)
@@ -96,7 +96,7 @@ def _limit_rows(results: Results) -> list[Row]:
             thesis = quoted(LIMITS[model], model)
             allowed = STEP_TOLERANCE * (1 + 1e-9)
             rows.append(
-                Row(model, LIMITS[model], "us", max(stable), thesis, thesis - allowed, thesis + allowed)
+                Check(model, LIMITS[model], "us", max(stable), thesis, thesis - allowed, thesis + allowed)
             )
     return rows
 

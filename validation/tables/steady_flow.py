@@ -21,7 +21,7 @@ from validation.tables.artery import (
     healthy_steady_state,
     quoted,
 )
-from validation.tables.experiment import Entry, Experiment, Result, Results, Row, number
+from validation.tables.experiment import Check, Entry, Experiment, Result, Results, number
 
 DIGITS = 0.5e-4  # cm³/s: half a unit of the last printed digit
 RESIDUAL = 1e-12
@@ -73,7 +73,7 @@ def compute() -> Result:
     }
 
 
-def _rows(results: Results) -> list[Row]:
+def _rows(results: Results) -> list[Check]:
     if "steady flow" not in results:
         return []
     result = results["steady flow"]
@@ -81,8 +81,8 @@ def _rows(results: Results) -> list[Row]:
     analytic, stated = number(result, "flow"), number(result, "flow_stated_outlet")
     marched, marched_stated = number(result, "marched"), number(result, "marched_stated_outlet")
     return [
-        Row("outlet 7205.2 Pa", "Q", "cm^3/s", analytic, thesis, thesis - DIGITS, thesis + DIGITS),
-        Row(
+        Check("outlet 7205.2 Pa", "Q", "cm^3/s", analytic, thesis, thesis - DIGITS, thesis + DIGITS),
+        Check(
             "outlet 7205.2 Pa",
             "Q, marched",
             "cm^3/s",
@@ -91,7 +91,7 @@ def _rows(results: Results) -> list[Row]:
             analytic - STOPPED,
             analytic + STOPPED,
         ),
-        Row(
+        Check(
             "outlet 9330 Pa",
             "Q, marched",
             "cm^3/s",
@@ -100,7 +100,7 @@ def _rows(results: Results) -> list[Row]:
             stated - STOPPED,
             stated + STOPPED,
         ),
-        Row("both outlets", "residual of (2.2.69)", "", number(result, "residual"), None, 0.0, RESIDUAL),
+        Check("both outlets", "residual of (2.2.69)", "", number(result, "residual"), None, 0.0, RESIDUAL),
     ]
 
 

@@ -27,7 +27,7 @@ from validation.tables.artery import (
     ring,
     thesis_table,
 )
-from validation.tables.experiment import Entry, Experiment, Result, Results, Row, number, within
+from validation.tables.experiment import Check, Entry, Experiment, Result, Results, number, within
 
 SIZES = tuple(range(30, 241, 30))
 ROWS = tuple(range(12, 97, 12))
@@ -105,7 +105,7 @@ def local_calcification(n_phi: int, transition: float) -> Result:
 
 def _rows(
     table: str, key: str, columns: dict[str, tuple[str, str, str, float]], results: Results
-) -> list[Row]:
+) -> list[Check]:
     """Rows of a table with one line per ``key``.
 
     ``columns`` maps a column of the thesis's table to the prefix of its entries, the name of the number
@@ -181,7 +181,7 @@ REGRESSIONS = (
 )
 
 
-def order_rows(results: Results) -> list[Row]:
+def order_rows(results: Results) -> list[Check]:
     """Slopes of log ε over log Δx, once all sizes of a table are there."""
     rows = []
     for quantity, table, error in REGRESSIONS:

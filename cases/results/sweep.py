@@ -1,21 +1,17 @@
 """What study.json of a sweep holds."""
 
-from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue, TypeAdapter
+from pydantic import ConfigDict, Field, JsonValue
 
-from reports.result.strict_json import read_json
+from cases.results.record import Record
 
 Count = Annotated[int, Field(ge=0)]
+State = Literal["finished", "interrupted", "running"]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
 
-class _Record(BaseModel):
-    model_config = ConfigDict(strict=True, frozen=True, allow_inf_nan=False, extra="ignore")
-
-
-class Parameter(_Record):
+class VariedParameter(Record):
     """A number of the case that the sweep varies.
 
     Attributes
@@ -26,6 +22,8 @@ class Parameter(_Record):
         What people read it in.
     display_factor : float
         Value in `unit` = stored SI value × display_factor.
+    unit_si : str
+        What it is stored in.
     kind : str
         ``list``, ``range`` or the distribution's name.
     low, high : float or None
@@ -34,11 +32,16 @@ class Parameter(_Record):
         The values of a list or range, SI.
     base : float or None
         The base case's own value, SI.
+
+    A distribution's own numbers, such as ``mean``, stand beside these.
     """
+
+    model_config = ConfigDict(extra="allow")
 
     name: str
     label: str
     unit: str
+    unit_si: str = ""
     display_factor: Positive
     kind: str
     low: float | None = None
@@ -47,7 +50,7 @@ class Parameter(_Record):
     base: float | None = None
 
 
-class Band(_Record):
+class OutputBand(Record):
     """A limit on an output's size, SI, and the variants it is for; None for all."""
 
     limit: Annotated[float, Field(ge=0)]
@@ -55,18 +58,22 @@ class Band(_Record):
     variants: tuple[str, ...] | None = None
 
 
-class Output(_Record):
-    """A number kept of each sample; `unit` and `display_factor` as of a parameter."""
+class KeptOutput(Record):
+    """A number kept of each sample; its units and `display_factor` as of a parameter."""
 
     name: str
     label: str
     unit: str
+    unit_si: str = ""
     display_factor: Positive
-    band: Band | None = None
+    band: OutputBand | None = None
 
 
-class Index(_Record):
-    """Sobol indices of one output with respect to one parameter, and half widths of their intervals."""
+class SobolIndex(Record):
+    """Sobol indices of one output with respect to one parameter, and half widths of their intervals.
+
+    They come from so many `groups` of runs; None where these are too few or the output does not vary.
+    """
 
     variant: str
     output: str
@@ -75,17 +82,20 @@ class Index(_Record):
     S1_conf: float | None
     ST: float | None
     ST_conf: float | None
+    groups: Count = 0
 
 
-class Design(_Record):
-    """How samples were chosen."""
+class DrawnDesign(Record):
+    """How samples were chosen: so many in all, from a stated count; computed in chunks."""
 
     kind: str
     samples: Count
+    count: int | None = None
     seed: int | None = None
+    chunk: Count = 0
 
 
-class Counts(_Record):
+class SampleCounts(Record):
     """How many samples are recorded, and how many of these failed."""
 
     done: Count
@@ -93,8 +103,8 @@ class Counts(_Record):
     total: Count
 
 
-class Study(_Record):
-    """All that is not of one sample."""
+class SweepAccount(Record):
+    """All that is not of one sample; `digest` is that of what determines the sweep's numbers."""
 
     name: str
     title: str
@@ -103,24 +113,12 @@ class Study(_Record):
     created: str
     git_commit: str | None = None
     versions: dict[str, JsonValue]
-    design: Design
+    digest: str = ""
+    design: DrawnDesign
     against: str | None = None
-    parameters: Annotated[tuple[Parameter, ...], Field(min_length=1)]
-    outputs: Annotated[tuple[Output, ...], Field(min_length=1)]
-    state: Literal["finished", "interrupted", "running"]
-    counts: Counts
-    sensitivity: tuple[Index, ...] | None = None
-
-
-_SCHEMA = TypeAdapter(Study)
-
-
-def read_study(path: Path) -> Study:
-    """Read study.json.
-
-    Raises
-    ------
-    ReportError
-        If a key is absent or its value is of another type than declared above.
-    """
-    return read_json(path, _SCHEMA)
+    states_per_cycle: Count | None = None
+    parameters: Annotated[tuple[VariedParameter, ...], Field(min_length=1)]
+    outputs: Annotated[tuple[KeptOutput, ...], Field(min_length=1)]
+    state: State
+    counts: SampleCounts
+    sensitivity: tuple[SobolIndex, ...] | None = None

@@ -1,21 +1,16 @@
 """What provenance.json holds."""
 
-from pathlib import Path
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue, TypeAdapter
+from pydantic import ConfigDict, Field, JsonValue
 
-from reports.result.strict_json import read_json
+from cases.results.record import Record
 
 Checksum = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
 Share = Annotated[float, Field(ge=0, le=1)]
 
 
-class _Record(BaseModel):
-    model_config = ConfigDict(strict=True, frozen=True, allow_inf_nan=False)
-
-
-class CaseFile(_Record):
+class CaseFile(Record):
     """The case file, by checksum."""
 
     path: str
@@ -28,7 +23,7 @@ class InputFile(CaseFile):
     bytes: int
 
 
-class _Settings(_Record):
+class _Settings(Record):
     """Named facts of a run; those that the report uses itself are declared below, all are listed."""
 
     model_config = ConfigDict(extra="allow")
@@ -70,7 +65,7 @@ class ReducedModelSettings(_Settings):
         }
 
 
-class SimulationCost(_Record):
+class SimulationCost(Record):
     """What the 3D simulation took, as its log tells; None where it does not."""
 
     log: str
@@ -84,7 +79,7 @@ class SimulationCost(_Record):
     equations: Count | None
 
 
-class RecordCheck(_Record):
+class RecordCheck(Record):
     """Values that FEBio wrote as text beside the plot file's: largest difference over largest value."""
 
     file: str
@@ -119,14 +114,14 @@ class ReferenceSettings(_Settings):
         return {k: v for k, v in super().facts().items() if k not in ("cost", "data_records", "wall_time_s")}
 
 
-class VariantRecord(_Record):
+class VariantRecord(Record):
     """Both models of one variant."""
 
     rom: ReducedModelSettings
     reference: ReferenceSettings
 
 
-class DeclaredBand(_Record):
+class DeclaredBand(Record):
     """A limit with its reason and the variants it is for; without `variants`, all."""
 
     quantity: str
@@ -136,7 +131,7 @@ class DeclaredBand(_Record):
     variants: tuple[str, ...] | None = None
 
 
-class Provenance(_Record):
+class Provenance(Record):
     """What the comparison was made from, and how."""
 
     created: str
@@ -148,22 +143,9 @@ class Provenance(_Record):
     machine: dict[str, JsonValue]
     case: CaseFile
     inputs: tuple[InputFile, ...]
+    seeds: dict[str, int] = Field(default_factory=dict)
     wall_times_s: dict[str, float]
     notes: tuple[str, ...]
     warnings: tuple[str, ...] = ()
     variants: dict[str, VariantRecord]
     bands: tuple[DeclaredBand, ...]
-
-
-_SCHEMA = TypeAdapter(Provenance)
-
-
-def read_provenance(path: Path) -> Provenance:
-    """Read provenance.json.
-
-    Raises
-    ------
-    ReportError
-        If a key is absent or its value is of another type than declared above.
-    """
-    return read_json(path, _SCHEMA)

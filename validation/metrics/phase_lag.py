@@ -1,6 +1,4 @@
-"""One number per cycle and model: extremes of pressure and radius, differences along the artery, lag."""
-
-from collections.abc import Callable
+"""Lag of the outlet flow over the cycle, of one model behind the other."""
 
 import numpy as np
 import xarray as xr
@@ -10,31 +8,6 @@ from scipy.optimize import minimize_scalar
 from validation.reference.alignment import WHOLE
 
 LARGEST_LAG = 0.1  # share of a cycle searched for a lag
-
-
-def _pulse(model: xr.Dataset) -> float:
-    return float(model["section_pressure"].max() - model["section_pressure"].min())
-
-
-def _pressure_difference(model: xr.Dataset) -> float:
-    pressure = model["section_pressure"]
-    return float((pressure.max("x") - pressure.min("x")).max())
-
-
-def _radius_variation(model: xr.Dataset) -> float:
-    radius = model["radius"]
-    return float((radius.max(("x", "phi")) - radius.min(("x", "phi"))).max())
-
-
-CYCLE_QUANTITIES: dict[str, Callable[[xr.Dataset], float]] = {
-    "systolic_pressure": lambda model: float(model["section_pressure"].max()),
-    "diastolic_pressure": lambda model: float(model["section_pressure"].min()),
-    "pulse_pressure": _pulse,
-    "largest_radius": lambda model: float(model["radius"].max()),
-    "least_radius": lambda model: float(model["radius"].min()),
-    "largest_pressure_difference": _pressure_difference,
-    "largest_radius_variation": _radius_variation,
-}
 
 
 def phase_lag(rom: xr.Dataset, reference: xr.Dataset, period: float) -> float | None:

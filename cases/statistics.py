@@ -1,0 +1,62 @@
+"""The statistics that rows are of: what each is called, and whether it is relative."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Statistic:
+    """What a figure tells of a quantity.
+
+    Attributes
+    ----------
+    name, label : str
+        Name in metrics and bands; words for people.
+    relative : bool
+        Whether its error is a share of the reference; otherwise it has the quantity's unit.
+    signed : bool
+        Whether it may be negative.
+    words_with_quantity : str
+        Words before "of the <quantity>", where they are others than the label.
+    """
+
+    name: str
+    label: str
+    relative: bool = True
+    signed: bool = True
+    words_with_quantity: str = ""
+
+    @property
+    def of_quantity(self) -> str:
+        """Words that stand before "of the <quantity>"."""
+        return self.words_with_quantity or self.label
+
+
+def _table(*statistics: Statistic) -> dict[str, Statistic]:
+    return {statistic.name: statistic for statistic in statistics}
+
+
+JUDGED = _table(  # what bands may limit
+    Statistic("rms_error", "RMS error", signed=False),
+    Statistic("max_error", "largest error"),
+    Statistic("bias", "bias", words_with_quantity="mean error"),
+    Statistic("scatter", "scatter", signed=False, words_with_quantity="scatter of the error"),
+    Statistic("systolic_error", "error at systole", words_with_quantity="systolic error"),
+    Statistic("diastolic_error", "error at end diastole", words_with_quantity="diastolic error"),
+    Statistic("rms_difference", "RMS difference", relative=False),
+    Statistic("max_difference", "largest difference", relative=False),
+)
+PLACED = JUDGED | _table(  # what reports have tables for
+    Statistic("value", "value"),
+    Statistic("cycle", "error over the cycle"),
+    Statistic("change", "change by calcification"),
+    Statistic("ratio", "ratio to the baseline"),
+)
+STATISTICS = PLACED | _table(
+    Statistic("curved_rms_error", "RMS error against 3D with the section's edge taken round"),
+    Statistic("worst_cell", "RMS error of the worst cell"),
+)
+
+
+def statistic_of(name: str) -> Statistic:
+    """Return a statistic by name; one that no table lists is named by its own name."""
+    return STATISTICS.get(name) or Statistic(name, name.replace("_", " "))

@@ -1,0 +1,50 @@
+"""Functions that compute the compared quantities which are no fields themselves, from one model's fields.
+
+`cases.fields` says of each what it is called, which fields it reads, and what is made of it.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+
+from cases.arrays import Floats
+
+
+def _pulse(model: xr.Dataset) -> float:
+    return float(model["section_pressure"].max() - model["section_pressure"].min())
+
+
+def _pressure_difference(model: xr.Dataset) -> float:
+    pressure = model["section_pressure"]
+    return float((pressure.max("x") - pressure.min("x")).max())
+
+
+def _radius_variation(model: xr.Dataset) -> float:
+    radius = model["radius"]
+    return float((radius.max(("x", "phi")) - radius.min(("x", "phi"))).max())
+
+
+#: numbers of the cycle, SI
+CYCLE_QUANTITIES: dict[str, Callable[[xr.Dataset], float]] = {
+    "systolic_pressure": lambda model: float(model["section_pressure"].max()),
+    "diastolic_pressure": lambda model: float(model["section_pressure"].min()),
+    "pulse_pressure": _pulse,
+    "largest_radius": lambda model: float(model["radius"].max()),
+    "least_radius": lambda model: float(model["radius"].min()),
+    "largest_pressure_difference": _pressure_difference,
+    "largest_radius_variation": _radius_variation,
+}
+
+
+def sector_share(model: xr.Dataset) -> Floats:
+    """Flow rate through each sector over its section's mean, (n_t, n_x, n_phi); NaN where that is zero."""
+    sector, section = (model[name].to_numpy() for name in ("sector_flow_rate", "section_flow_rate"))
+    mean = section[..., None].astype(float) / sector.shape[-1]
+    share: Floats = np.full(sector.shape, np.nan)
+    np.divide(sector, mean, out=share, where=mean != 0)
+    return share
+
+
+#: values over the cycle, on the dimensions of their field
+DERIVED_QUANTITIES: dict[str, Callable[[xr.Dataset], Floats]] = {"sector_flow_share": sector_share}
