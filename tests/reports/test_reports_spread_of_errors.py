@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 from reports.result.metrics import Metrics, Row
-from reports.sections import change_apart, further, pooled
+from reports.sections.parts import change_apart, further, pooled
 
 
 def row(statistic, error, rom=None, reference=None, variant="local"):

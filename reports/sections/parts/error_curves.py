@@ -12,7 +12,7 @@ from reports.figures.curves import REFERENCE_COLOUR, ROM_COLOUR, small_multiples
 from reports.figures.panels import Curves, PanelRow
 from reports.result.load import Comparison
 from reports.result.metrics import Row
-from reports.sections.cells import chunks
+from reports.sections.parts.cells import chunks
 from reports.wording.numbers import SPACE, fixed, listed, percent, unsigned
 from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, instant, place, row_heading, top_to_bottom
