@@ -15,6 +15,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.stated import anywhere, left_out
+from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import (
     DIFFERENCE_UNITS,
     SPACE,
@@ -26,7 +27,6 @@ from reports.wording.numbers import (
     unsigned,
     with_unit,
 )
-from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, row_heading, spot
 
 _SYMBOLS = {"pressure": "P", "radius": "R", "sector_flow_rate": "$q_φ$", "section_flow_rate": "q"}

@@ -17,8 +17,8 @@ from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.page_data import both_models
 from reports.sections.parts.stated import anywhere, stated_variants
+from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import SPACE, fixed, listed, signed, span, with_unit
-from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, instant, row_heading, spot, top_to_bottom
 
 _FIELD = FIELDS["axial_velocity"]

@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 
 from cases.arrays import Flags, Floats
-from reports.sweep.load import Sweep
+from reports.sweep.amounts import amount
+from reports.sweep.folder import Sweep
 from reports.sweep.study_file import Band, Output, Parameter
-from reports.sweep.words import amount
 from reports.wording.numbers import SPACE, counted
 
 _WORTH_SAYING = 0.2  # of the samples that one parameter alone decides

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from reports.sweep.load import OK, Sweep, shown
+from reports.sweep.amounts import is_error
+from reports.sweep.folder import OK, Sweep, shown
 from reports.sweep.responses import logarithmic
 from reports.sweep.study_file import Output, Parameter
-from reports.sweep.words import is_error
 
 MOST_SAMPLES = 5000  # points that a browser still moves at ease
 

@@ -16,14 +16,14 @@ from reports import ReportError
 from reports.__main__ import main
 from reports.blocks import Table
 from reports.sweep import write_sweep_page
-from reports.sweep.account import headline
+from reports.sweep.amounts import amount, axis_label, ends
 from reports.sweep.build import sweep_report
-from reports.sweep.drawing import means
+from reports.sweep.folder import load_sweep
 from reports.sweep.held import Held, all_held, sentence, splits
-from reports.sweep.load import load_sweep
 from reports.sweep.page_data import page_data
+from reports.sweep.scatter import means
 from reports.sweep.study_file import Band, Output, Parameter
-from reports.sweep.words import amount, axis_label, ends
+from reports.sweep.verdict import headline
 
 PARAMETER = Parameter(name="p", label="stiffness", unit="MPa", display_factor=1e-6, kind="list")
 OTHER = Parameter(name="o", label="angle", unit="deg", display_factor=1.0, kind="list")

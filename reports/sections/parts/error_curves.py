@@ -13,8 +13,8 @@ from reports.figures.panels import Curves, PanelRow
 from reports.result.load import Comparison
 from reports.result.metrics import Row
 from reports.sections.parts.cells import chunks
+from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import SPACE, fixed, listed, percent, unsigned
-from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, instant, place, row_heading, top_to_bottom
 
 _LOW, _HIGH, _MOST = 1.0, 6.0, 30.0  # exponents of the curves: a cusp, a blunt profile, nearly plug flow
