@@ -1,4 +1,4 @@
-"""What a report is made of, whatever it is rendered to."""
+"""Parts of a report, whatever it is rendered to."""
 
 import json
 from collections.abc import Callable, Iterator, Mapping

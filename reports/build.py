@@ -1,4 +1,4 @@
-"""Both renderings of one comparison, written beside it; a page for several."""
+"""Reports of one comparison, written beside it; a page for several."""
 
 from pathlib import Path
 

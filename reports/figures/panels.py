@@ -1,4 +1,4 @@
-"""What stands in the panels of small multiples, and where."""
+"""Panels of small multiples: their content and their places."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Every figure of a report drawn once, by two processes where there are two processors."""
+"""Drawing of a report's figures, each once, by two processes where there are two processors."""
 
 import os
 import pickle

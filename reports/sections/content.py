@@ -1,4 +1,4 @@
-"""What the report says, once, for every rendering."""
+"""Content of a report, once, for every rendering."""
 
 from reports.blocks import Report
 from reports.result.load import Comparison

@@ -1,4 +1,4 @@
-"""Where a band holds, in numbers and words computed from the samples."""
+"""Samples in which a band holds, in numbers and words."""
 
 import math
 from collections.abc import Sequence

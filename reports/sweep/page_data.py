@@ -1,4 +1,4 @@
-"""What the page's picture of the samples is drawn from."""
+"""Data of the page's picture of the samples."""
 
 from typing import Any
 

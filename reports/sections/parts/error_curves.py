@@ -1,4 +1,4 @@
-"""How the error of the closest profile depends on its exponent γ, at the shown cells."""
+"""Error of the closest profile over its exponent γ, at the shown cells."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What several interactive pictures are drawn from: both models over the cycle on all cells."""
+"""Data of several interactive pictures: both models over the cycle on all cells."""
 
 from typing import Any
 
