@@ -9,8 +9,8 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from cases.reading.case_file import load_case_file
+from reports.figures.canvas import STYLE, WIDTH, svg_text
 from reports.figures.curves import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
-from reports.figures.drawing import STYLE, WIDTH, svg_text
 from solver.case.model import grid_of
 from validation.ablation.ladder import models_between
 from validation.mapping.rays import rays

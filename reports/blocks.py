@@ -1,9 +1,10 @@
-"""What a report is made of, whatever it is rendered to."""
+"""Parts of a report, whatever it is rendered to."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from itertools import groupby
-from typing import Literal
+from typing import Any, Literal
 
 _FILTERED = ("variant", "quantity", "verdict")
 
@@ -112,12 +113,15 @@ class Interactive:
         Which of the page's scripts draws it.
     text : str
         What can be done with it.
+    data : mapping
+        JSON values by name that the script draws from beside those of the report.
     """
 
     key: str
-    picture: Literal["curves", "profiles", "maps", "artery", "metrics", "errors", "samples"]
+    picture: str
     title: str
     text: str
+    data: Mapping[str, Any] = field(default_factory=dict)
 
 
 Block = Paragraph | Bullets | Warnings | Listing | Table | Figure | Interactive
@@ -155,8 +159,8 @@ class Report:
         ISO time of the comparison; the only clock a report knows.
     sections : tuple of Section
         In reading order.
-    data : str
-        JSON that interactive pictures are drawn from.
+    data : mapping
+        JSON values by name that several interactive pictures are drawn from.
     """
 
     title: str
@@ -164,7 +168,7 @@ class Report:
     identity: str
     created: str
     sections: tuple[Section, ...]
-    data: str
+    data: Mapping[str, Any]
 
     def blocks(self) -> Iterator[Block]:
         """All blocks, in reading order."""
@@ -176,8 +180,13 @@ class Report:
         """All figures, in reading order."""
         return (block for block in self.blocks() if isinstance(block, Figure))
 
-    def pictures(self) -> tuple[str, ...]:
-        """Scripts that draw its interactive pictures, each once."""
-        return tuple(
-            dict.fromkeys(block.picture for block in self.blocks() if isinstance(block, Interactive))
-        )
+    def interactives(self) -> Iterator[Interactive]:
+        """All interactive pictures, in reading order."""
+        return (block for block in self.blocks() if isinstance(block, Interactive))
+
+    def page_data(self) -> str:
+        """JSON of all that the page's scripts read."""
+        content = dict(self.data)
+        for picture in self.interactives():
+            content |= picture.data
+        return json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False)

@@ -1,13 +1,11 @@
-"""Both renderings of one comparison, written beside it; a page for several."""
+"""Reports of one comparison, written beside it; a page for several."""
 
-from dataclasses import replace
 from pathlib import Path
 
-from reports.figures.drawn import draw, helper
+from reports.figures.two_processes import draw, helper
 from reports.gallery import Entry, entry, gallery_place, render_gallery
 from reports.pages import rendered, write_pages
 from reports.result.load import load
-from reports.sections.ablation import ablation_section
 from reports.sections.content import report
 from reports.sweep.build import is_sweep, write_sweep_entry
 
@@ -67,9 +65,6 @@ def _write_reports(directory: Path) -> Entry:
     with helper() as second:
         comparison = load(directory)
         content = report(comparison)
-        bought = ablation_section(directory)
-        if bought is not None:  # before the provenance
-            content = replace(content, sections=(*content.sections[:-1], bought, content.sections[-1]))
         drawings = draw({figure.key: figure.drawing for figure in content.figures()}, second)
     html, pdf = rendered(content, drawings)
     write_pages({directory / "report.html": html, directory / "report.pdf": pdf})

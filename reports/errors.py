@@ -1,4 +1,4 @@
-"""What can go wrong while a report is drawn."""
+"""Errors that can happen while a report is drawn."""
 
 
 class ReportError(Exception):

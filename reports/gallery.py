@@ -1,4 +1,4 @@
-"""One page for several comparisons and sweeps, the worst first, with links to their reports."""
+"""Page for several comparisons and sweeps, the worst first, with links to their reports."""
 
 import os
 from collections import Counter

@@ -1,4 +1,4 @@
-"""Content as files: both renderings, each written whole or not at all."""
+"""Files of a report: both renderings, each written whole or not at all."""
 
 import os
 from collections.abc import Mapping

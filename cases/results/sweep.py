@@ -1,4 +1,4 @@
-"""What study.json of a sweep holds."""
+"""Content of study.json of a sweep."""
 
 from typing import Annotated, Literal
 

@@ -84,6 +84,7 @@ if TYPE_CHECKING:
 else:
     Reference = union_by_tag({name: kind.section for name, kind in KINDS.items()})
 
+
 class Geometry(Section):
     """The unloaded artery, a straight circular cylinder.
 

@@ -18,7 +18,7 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from cases.arrays import Floats
-from reports.figures.drawing import STYLE, WIDTH, legend_above, svg_text
+from reports.figures.canvas import STYLE, WIDTH, legend_above, svg_text
 from reports.figures.panels import LEFT, Curves, Layout, PanelRow
 
 REFERENCE_COLOUR = "#1a1a1a"

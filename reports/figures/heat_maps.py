@@ -18,7 +18,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from cases.arrays import Flags, Floats
-from reports.figures.drawing import STYLE, WIDTH, svg_text
+from reports.figures.canvas import STYLE, WIDTH, svg_text
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.62, 0.62, 0.22, 0.42
 _GAP, _ROW_GAP = 0.10, 0.14

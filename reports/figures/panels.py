@@ -1,11 +1,11 @@
-"""What stands in the panels of small multiples, and where."""
+"""Panels of small multiples: their content and their places."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from cases.arrays import Floats
-from reports.figures.drawing import WIDTH
+from reports.figures.canvas import WIDTH
 
 LEFT, RIGHT, GAP = 0.62, 0.26, 0.10  # inches beside the panels and between them
 

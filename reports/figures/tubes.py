@@ -13,7 +13,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from cases.arrays import Flags, Floats
-from reports.figures.drawing import STYLE, WIDTH, svg_text
+from reports.figures.canvas import STYLE, WIDTH, svg_text
 from reports.figures.heat_maps import cell_borders, colour_bar, edges_of
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.25, 0.75, 0.22, 0.30

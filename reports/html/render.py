@@ -14,13 +14,12 @@ from markupsafe import Markup
 from reports.blocks import Figure, Report
 
 _LARGE = 100_000  # bytes
-_OF_CELLS = ("curves", "profiles", "maps", "artery", "errors")  # pictures of both models on the lumen's cells
 
 
 def render_html(report: Report, drawings: Mapping[str, str]) -> str:
     """Return the HTML text of `report`; texts are escaped, figures (SVG by key) and their data embedded."""
-    pictures = report.pictures()
-    scripts = (*((_library(),) if pictures else ()), _own_scripts(pictures))
+    pictures = tuple(dict.fromkeys(block.picture for block in report.interactives()))
+    scripts = (*((_library(),) if pictures else ()), _own_scripts(pictures, "fields" in report.data))
     return (
         environment()
         .get_template("report.html")
@@ -29,7 +28,7 @@ def render_html(report: Report, drawings: Mapping[str, str]) -> str:
             drawings=drawings,
             scripts=[Markup(script) for script in scripts],  # noqa: S704 (the package's own and the library)
             checksums=[_checksum(script) for script in scripts],
-            data=Markup(report.data.replace("<", "\\u003c")),  # noqa: S704 (JSON that ends no script)
+            data=Markup(report.page_data().replace("<", "\\u003c")),  # noqa: S704 (JSON that ends no script)
         )
     )
 
@@ -58,10 +57,10 @@ def _library() -> str:
 
 
 @cache
-def _own_scripts(pictures: tuple[str, ...]) -> str:
-    """Join what a page needs that has these interactive pictures."""
+def _own_scripts(pictures: tuple[str, ...], on_cells: bool) -> str:
+    """Join what a page needs that has these interactive pictures, some of the lumen's cells."""
     folder = files("reports.html").joinpath("scripts")
-    cells = ("cells",) if set(pictures) & set(_OF_CELLS) else ()
+    cells = ("cells",) if on_cells else ()
     names = ("data", "controls", "tables", "plots", *cells, *pictures)
     texts = [folder.joinpath(f"{name}.js").read_text(encoding="utf-8") for name in (*names, "start")]
     drawn = f"const PICTURES = {{ {', '.join(pictures)} }};"

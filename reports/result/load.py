@@ -26,6 +26,8 @@ class Comparison:
 
     Attributes
     ----------
+    directory : Path
+        Where it lies.
     case, title, baseline, case_yaml : str
         Name, heading, variant without calcification ("" for none), the case file's text.
     variants : tuple of str
@@ -65,6 +67,7 @@ class Comparison:
         What provenance.json holds.
     """
 
+    directory: Path
     case: str
     title: str
     baseline: str
@@ -140,6 +143,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
     states = [int(np.abs(dataset["time"].values - t).argmin()) for _, t in attributes.times]
     fields = dataset[[*_both(FIELDS), comparison_file.PROFILE_ERROR, CALCIFIED]].load()
     return Comparison(
+        directory=directory,
         case=attributes.case,
         title=attributes.title,
         baseline=attributes.baseline,

@@ -1,1 +1,1 @@
-"""What a report says: an ordered list of sections, a module each."""
+"""Sections of a report: an ordered list, a module each."""

@@ -1,32 +1,26 @@
-"""What each part of the coupled model buys: a section of the report where `ablation.json` is there."""
+"""Section on what each part of the coupled model buys, where `ablation.json` is there."""
 
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 
 from pydantic import TypeAdapter
 
 from cases.results.ablation import MEASURES, AblationRow
-from reports.blocks import Bullets, Column, Paragraph, Section, Table
+from reports.blocks import Bullets, Column, Paragraph, Table
+from reports.result.load import Comparison
 from reports.result.strict_json import read_json
+from reports.sections.declaration import Blocks, declared, result_file
 from reports.wording.numbers import ABSENT, fixed, percent, unsigned
 
 _ROWS = TypeAdapter(list[AblationRow])
 _SAID = {"radius_rms": "the lumen radius", "sector_share_rms": "a sector's share of the flow"}
+_FILE = "ablation.json"
 _TINY = 5e-5  # an error that two decimals of a percentage show as zero
 
 
-def ablation_section(directory: Path) -> Section | None:
-    """Build the section from ``ablation.json`` of a result's directory; None where there is none.
-
-    Raises
-    ------
-    ReportError
-        If the file is damaged.
-    """
-    path = directory / "ablation.json"
-    if not path.is_file():
-        return None
-    rows = read_json(path, _ROWS)
+@declared("ablation", "What each part of the model buys", result_file(_FILE))
+def section(comparison: Comparison) -> Blocks:
+    """Errors of each model between the row-local and the coupled one; a damaged file is a ReportError."""
+    rows = read_json(comparison.directory / _FILE, _ROWS)
     columns = {
         name: measure
         for name, measure in MEASURES.items()
@@ -54,7 +48,7 @@ def ablation_section(directory: Path) -> Section | None:
         sentence for name in dict.fromkeys(row.variant for row in rows) if (sentence := _said(rows, name))
     )
     found = (Bullets(said),) if said else ()
-    return Section("ablation", "What each part of the model buys", (Paragraph(words), *found, table))
+    return Paragraph(words), *found, table
 
 
 def _said(rows: Sequence[AblationRow], variant: str) -> str:

@@ -1,4 +1,4 @@
-"""Section 9: the deformed lumen in space."""
+"""Section of the deformed lumen in space."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -6,10 +6,11 @@ from functools import partial
 import numpy as np
 
 from cases.arrays import Floats
-from reports.blocks import Figure, Interactive, Paragraph, Section
-from reports.figures.lumen import cells_header, cells_text, field
+from reports.blocks import Figure, Interactive
 from reports.figures.tubes import Tube, tubes
 from reports.result.load import Comparison
+from reports.sections.declaration import Blocks, Need, declared, instants
+from reports.sections.parts.lumen import cells_header, cells_text, field
 from reports.wording.numbers import SPACE, fixed, listed, share
 from reports.wording.words import baseline_words, instant, spot
 
@@ -104,14 +105,14 @@ def _reach(comparison: Comparison, state: int) -> str:
     )
 
 
-def section(comparison: Comparison) -> Section:
-    """Build the section: a still, and a picture to be turned."""
-    title = "3D view"
-    if not comparison.times:
-        return Section("artery", title, (Paragraph("The case names no instant to show the artery at."),))
-    if not has_shape(comparison):
-        told = "The reference does not state the radius of all cells, so there is no 3D artery to show."
-        return Section("artery", title, (Paragraph(told),))
+SHAPE = Need(
+    has_shape, "The reference does not state the radius of all cells, so there is no 3D artery to show."
+)
+
+
+@declared("artery", "3D view", instants("the artery"), SHAPE)
+def section(comparison: Comparison) -> Blocks:
+    """Return a still, and a picture to be turned."""
     name, t_s = comparison.times[0]
     state = comparison.states[0]
     seen = view(comparison)
@@ -158,8 +159,15 @@ def section(comparison: Comparison) -> Section:
         "The artery, to be turned",
         "Drag to turn, scroll to come nearer, point at the wall for its values; both models turn together. "
         "Without a pointer, use the slider.",
+        {
+            "artery": {
+                "rest_radius": 1e3 * seen.rest_radius,
+                "exaggeration": seen.exaggeration,
+                "seen_from": float(np.degrees(seen.seen_from)),
+            }
+        },
     )
-    return Section("artery", title, (still, turned))
+    return still, turned
 
 
 def _csv(comparison: Comparison, t_s: float, state: int) -> str:

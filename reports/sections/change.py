@@ -1,4 +1,4 @@
-"""Section 2: what calcification changes, in 3D and in 2D."""
+"""Section on what calcification changes, in 3D and in 2D."""
 
 import math
 from dataclasses import dataclass
@@ -7,10 +7,11 @@ import numpy as np
 
 from cases.fields import FIELDS, Field
 from cases.results.metric_row import MetricRow
-from reports.blocks import Block, Column, Paragraph, Section, Subsection, Table
+from reports.blocks import Block, Column, Paragraph, Subsection, Table
 from reports.result.load import Comparison
-from reports.sections import change_apart
-from reports.sections.cells import cell_tables
+from reports.sections.declaration import Blocks, declared
+from reports.sections.parts import change_apart
+from reports.sections.parts.cells import cell_tables
 from reports.wording.numbers import (
     DIFFERENCE_UNITS,
     SPACE,
@@ -245,8 +246,9 @@ def _cell_changes(comparison: Comparison) -> tuple[Block, ...]:
     return tables
 
 
-def section(comparison: Comparison) -> Section:
-    """Build the section."""
+@declared("change", "What calcification changes")
+def section(comparison: Comparison) -> Blocks:
+    """Return the largest changes in words, then those of the whole cycle and of the shown cells."""
     times = listed(instant(name, t) for name, t in comparison.times)
     blocks: list[Block | Subsection] = []
     if comparison.changed:
@@ -272,4 +274,4 @@ def section(comparison: Comparison) -> Section:
     changes = _cell_changes(comparison) if comparison.changed else ()
     if changes:
         blocks.append(Subsection("cell-changes", "Change at the shown cells", changes))
-    return Section("change", "What calcification changes", tuple(blocks))
+    return tuple(blocks)

@@ -1,19 +1,9 @@
-"""What the report says, once, for every rendering."""
+"""Content of a report, once, for every rendering."""
 
 from reports.blocks import Report
-from reports.html.page_data import page_data
 from reports.result.load import Comparison
-from reports.sections import (
-    artery,
-    assumptions,
-    change,
-    cycle,
-    exponents,
-    maps,
-    provenance,
-    velocity,
-    verdict,
-)
+from reports.sections.order import SECTIONS
+from reports.sections.parts.page_data import page_data
 from reports.wording.numbers import counted, listed
 
 
@@ -38,17 +28,6 @@ def report(comparison: Comparison) -> Report:
         f"{listed(comparison.variants)}.",
         identity=identity(comparison),
         created=comparison.provenance.created,
-        sections=(
-            verdict.section(comparison),
-            change.section(comparison),
-            cycle.section(comparison),
-            velocity.section(comparison),
-            exponents.section(comparison),
-            maps.section(comparison),
-            assumptions.dominance_section(comparison),
-            assumptions.checks_section(comparison),
-            artery.section(comparison),
-            provenance.section(comparison),
-        ),
+        sections=tuple(section for declared in SECTIONS if (section := declared(comparison))),
         data=page_data(comparison),
     )

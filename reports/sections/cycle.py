@@ -1,4 +1,4 @@
-"""Section 3: pressure, radius and flow over the cycle at the chosen cells."""
+"""Section of pressure, radius and flow over the cycle at the chosen cells."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,12 +8,14 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
-from reports.blocks import Block, Figure, Interactive, Paragraph, Section, Subsection
+from reports.blocks import Block, Figure, Interactive, Paragraph, Subsection
 from reports.figures.curves import small_multiples
 from reports.figures.panels import Curves, PanelRow
 from reports.result.load import Comparison
-from reports.result.stated import anywhere, left_out
-from reports.sections.cells import chunks
+from reports.sections.declaration import Blocks, declared
+from reports.sections.parts.cells import chunks
+from reports.sections.parts.stated import anywhere, left_out
+from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import (
     DIFFERENCE_UNITS,
     SPACE,
@@ -25,7 +27,6 @@ from reports.wording.numbers import (
     unsigned,
     with_unit,
 )
-from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, row_heading, spot
 
 _SYMBOLS = {"pressure": "P", "radius": "R", "sector_flow_rate": "$q_φ$", "section_flow_rate": "q"}
@@ -188,22 +189,19 @@ def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:
     return Subsection(key, f"Variant {variant}", blocks)
 
 
-def section(comparison: Comparison) -> Section:
-    """Build the section."""
+@declared("cycle", "Pressure, radius and flow over the cycle")
+def section(comparison: Comparison) -> Blocks:
+    """Return the curves of each variant at the shown cells."""
     parts = {name: _variant(comparison, k, name) for k, name in enumerate(comparison.variants, start=1)}
     drawn = [name for name, part in parts.items() if part.blocks]
     told = left_out(comparison, drawn, "value over the cycle at the shown cells")
-    return Section(
-        "cycle",
-        "Pressure, radius and flow over the cycle",
-        (
-            Interactive(
-                "curves-anywhere",
-                "curves",
-                "Any cell over the cycle",
-                "Choose a variant, a quantity and a cell; point at the curves for their values.",
-            ),
-            *((Paragraph(told),) if told else ()),
-            *(parts[name] for name in drawn),
+    return (
+        Interactive(
+            "curves-anywhere",
+            "curves",
+            "Any cell over the cycle",
+            "Choose a variant, a quantity and a cell; point at the curves for their values.",
         ),
+        *((Paragraph(told),) if told else ()),
+        *(parts[name] for name in drawn),
     )

@@ -1,17 +1,21 @@
-"""Section 5: the exponent of the velocity profile closest to 3D, beside that of the 2D model."""
+"""Section of the exponent of the velocity profile closest to 3D, beside that of the 2D model."""
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from cases.arrays import Floats
-from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Paragraph, Subsection
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
-from reports.figures.lumen import WITHOUT_INSTANT, cells_csv, centres, field, outlined
+from reports.html.packed import pack
 from reports.result.load import Comparison
-from reports.result.stated import mostly, stated_variants
-from reports.sections import error_curves
+from reports.sections.declaration import Blocks, declared, instants
+from reports.sections.parts import error_curves
+from reports.sections.parts.lumen import cells_csv, centres, field, outlined
+from reports.sections.parts.page_data import digits
+from reports.sections.parts.stated import mostly, stated_variants
 from reports.wording.numbers import SPACE, percent, span, unsigned
 from reports.wording.words import spot, top_to_bottom
 
@@ -81,11 +85,9 @@ def _figure(comparison: Comparison, variant: str, key: str) -> Figure:
     )
 
 
-def section(comparison: Comparison) -> Section:
-    """Build the section of the closest profile exponents."""
-    title = "Closest γ"
-    if not comparison.times:
-        return Section("exponents", title, (Paragraph(WITHOUT_INSTANT),))
+@declared("exponents", "Closest γ", instants("maps"))
+def section(comparison: Comparison) -> Blocks:
+    """Return the closest profile exponents."""
     opening = Paragraph(
         f"The 2D model assumes v{SPACE}={SPACE}v₀{SPACE}(1{SPACE}−{SPACE}(r/R)^γ) along each ray. In 3D, γ "
         "is that of the closest such profile; where its error is large, no γ describes the 3D profile."
@@ -99,24 +101,30 @@ def section(comparison: Comparison) -> Section:
         "errors",
         "The error over γ, with its values",
         "Choose a variant, a time and a cell; point at the curve for its values.",
+        {"errors": _error_data(comparison)} if shown else {},
     )
-    return Section(
-        "exponents",
-        title,
-        (
-            opening,
-            *told,
-            *((any_cell,) if shown else ()),
-            *(
-                Subsection(
-                    f"exponents-{k}",
-                    f"Variant {name}",
-                    (
-                        *error_curves.figures(comparison, name, f"exponents-{k}-errors"),
-                        _figure(comparison, name, f"exponents-{k}-figure"),
-                    ),
-                )
-                for k, name in shown
-            ),
+    return (
+        opening,
+        *told,
+        *((any_cell,) if shown else ()),
+        *(
+            Subsection(
+                f"exponents-{k}",
+                f"Variant {name}",
+                (
+                    *error_curves.figures(comparison, name, f"exponents-{k}-errors"),
+                    _figure(comparison, name, f"exponents-{k}-figure"),
+                ),
+            )
+            for k, name in shown
         ),
     )
+
+
+def _error_data(comparison: Comparison) -> dict[str, Any]:
+    """Error (%) of the closest profile over its exponent: instant, i, j, γ for each variant."""
+    curves = comparison.error_curves
+    return {
+        "gamma": digits(curves["exponent"].values),
+        "values": [pack(100 * curves.sel(variant=name).values).plain() for name in comparison.variants],
+    }

@@ -1,4 +1,4 @@
-"""Section 6: maps of the fields over the unrolled lumen, (x, φ), in both models."""
+"""Section of the maps of the fields over the unrolled lumen, (x, φ), in both models."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -8,11 +8,12 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
-from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Paragraph, Subsection
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
-from reports.figures.lumen import WITHOUT_INSTANT, cells_csv, centres, field, outlined
 from reports.result.load import Comparison
-from reports.result.stated import mostly, stated_variants
+from reports.sections.declaration import Blocks, declared, instants
+from reports.sections.parts.lumen import cells_csv, centres, field, outlined
+from reports.sections.parts.stated import mostly, stated_variants
 from reports.wording.numbers import DIFFERENCE_UNITS, listed, rounded, signed, with_unit
 from reports.wording.words import instant, spot
 
@@ -108,18 +109,16 @@ def _figure(comparison: Comparison, variant: str, state: int, key: str) -> Figur
     )
 
 
-def section(comparison: Comparison) -> Section:
-    """Build the section of the maps of all fields, at the first named instant."""
-    title = "(x, φ) maps"
-    if not comparison.times:
-        return Section("maps", title, (Paragraph(WITHOUT_INSTANT),))
+@declared("maps", "(x, φ) maps", instants("maps"))
+def section(comparison: Comparison) -> Blocks:
+    """Return the maps of all fields, at the first named instant."""
     shown, told = stated_variants(
         comparison,
         lambda name: bool(_mapped(comparison.maps.sel(variant=name).isel(time=0))),
         "field over all cells",
     )
     if not shown:
-        return Section("maps", title, told)
+        return told
     figures = tuple(
         Subsection(f"maps-{k}", f"Variant {name}", (_figure(comparison, name, 0, f"maps-{k}-figure"),))
         for k, name in shown
@@ -135,4 +134,4 @@ def section(comparison: Comparison) -> Section:
         f"The still maps are at {instant(*comparison.times[0])}; comparison.nc holds all "
         f"{comparison.fields.sizes['time']} states."
     )
-    return Section("maps", title, (opening, *told, slider, *figures))
+    return opening, *told, slider, *figures

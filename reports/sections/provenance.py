@@ -1,12 +1,13 @@
-"""Last section: what the comparison was made from, and how to make it again."""
+"""Section of the provenance: what the comparison was made from, and how to make it again."""
 
 import hashlib
 import json
 from collections.abc import Mapping
 
-from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Section, Table
+from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Table
 from reports.result.load import Comparison
-from reports.sections.cost import cost_table, records_table
+from reports.sections.declaration import Blocks, declared
+from reports.sections.parts.cost import cost_table, records_table
 from reports.wording.numbers import ABSENT, counted
 
 _SMALL = 1e-6  # figures that matter by their order of magnitude only
@@ -92,8 +93,9 @@ def _inputs(comparison: Comparison) -> Table:
     )
 
 
-def section(comparison: Comparison) -> Section:
-    """Build the section."""
+@declared("provenance", "Provenance")
+def section(comparison: Comparison) -> Blocks:
+    """Return the command, both models' settings, the inputs and the case file."""
     p = comparison.provenance
     blocks: list[Block] = [
         Paragraph(
@@ -121,4 +123,4 @@ def section(comparison: Comparison) -> Section:
         blocks.append(Paragraph(f"{counted(len(p.notes), 'note')} of the run, warnings and assumptions:"))
         blocks.append(Bullets(p.notes))
     blocks.append(Listing("The case file", comparison.case_yaml))
-    return Section("provenance", "Provenance", tuple(blocks))
+    return tuple(blocks)

@@ -1,4 +1,4 @@
-"""Section 4: velocity profiles at the named instants."""
+"""Section of the velocity profiles at the named instants."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,15 +8,17 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.fields import FIELDS
-from reports.blocks import Figure, Interactive, Paragraph, Section, Subsection
+from reports.blocks import Figure, Interactive, Subsection
 from reports.figures.curves import small_multiples
 from reports.figures.panels import Curves, PanelRow
 from reports.result.load import Comparison
 from reports.result.metrics import Metrics
-from reports.result.stated import anywhere, stated_variants
-from reports.sections.cells import chunks
+from reports.sections.declaration import Blocks, declared, instants
+from reports.sections.parts.cells import chunks
+from reports.sections.parts.page_data import both_models
+from reports.sections.parts.stated import anywhere, stated_variants
+from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import SPACE, fixed, listed, signed, span, with_unit
-from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, instant, row_heading, spot, top_to_bottom
 
 _FIELD = FIELDS["axial_velocity"]
@@ -158,29 +160,24 @@ def _variant(comparison: Comparison, number: int, variant: str) -> Subsection:
     return Subsection(key, f"Variant {variant}", figures)
 
 
-def section(comparison: Comparison) -> Section:
-    """Build the section."""
-    title = "Velocity profiles"
-    if not comparison.times:
-        return Section("profiles", title, (Paragraph("The case names no instant to show profiles at."),))
+@declared("profiles", "Velocity profiles", instants("profiles"))
+def section(comparison: Comparison) -> Blocks:
+    """Return the profiles of each variant whose reference states them."""
     stated = comparison.profiles["reference_axial_velocity"]
     shown, told = stated_variants(
         comparison, lambda name: anywhere(stated.sel(variant=name).values), "velocity profiles"
     )
     if not shown:
-        return Section("profiles", title, told)
-    return Section(
-        "profiles",
-        title,
-        (
-            Interactive(
-                "profiles-anytime",
-                "profiles",
-                "The profile at any time",
-                "Choose a variant and a cell, move the time slider or let it play; point at the curves for "
-                "their values.",
-            ),
-            *told,
-            *(_variant(comparison, k, name) for k, name in shown),
+        return told
+    return (
+        Interactive(
+            "profiles-anytime",
+            "profiles",
+            "The profile at any time",
+            "Choose a variant and a cell, move the time slider or let it play; point at the curves for "
+            "their values.",
+            {"profiles": both_models(comparison, _FIELD, comparison.profiles)},
         ),
+        *told,
+        *(_variant(comparison, k, name) for k, name in shown),
     )

@@ -1,11 +1,12 @@
-"""Section 1: whether the declared bands hold, in sentences computed from the metrics."""
+"""Section of the verdict: whether the declared bands hold, in sentences computed from the metrics."""
 
 from collections import Counter
 
 from cases.results.metric_row import MetricRow, Status
-from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Section, Table, Warnings
+from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings
 from reports.result.load import Comparison
-from reports.sections import pooled, trust
+from reports.sections.declaration import Blocks, declared
+from reports.sections.parts import metric_rows, pooled, trust
 from reports.wording.numbers import ABSENT, counted, listed, rounded
 from reports.wording.words import limit, measure, place, quantity_words, statistic_words
 
@@ -180,8 +181,9 @@ def _other_references(comparison: Comparison) -> str:
     )
 
 
-def section(comparison: Comparison) -> Section:
-    """Build the section."""
+@declared("verdict", "Verdict")
+def section(comparison: Comparison) -> Blocks:
+    """Return the headline, the bands and what the comparison cannot tell."""
     blocks: list[Block] = [Paragraph(headline(comparison), lead=True)]
     warnings = (*trust.doubts(comparison), *comparison.provenance.warnings)
     if warnings:
@@ -203,6 +205,7 @@ def section(comparison: Comparison) -> Section:
             "Every figure of this comparison",
             "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
             "click on a heading sorts.",
+            {"metrics": metric_rows.columns(comparison.metrics)},
         )
     )
-    return Section("verdict", "Verdict", tuple(blocks))
+    return tuple(blocks)

@@ -4,16 +4,17 @@ from collections import Counter
 from pathlib import Path
 
 from reports.blocks import Report
-from reports.figures.drawn import draw
+from reports.figures.two_processes import draw
 from reports.gallery import RANKS, Entry
 from reports.pages import rendered, write_pages
-from reports.sweep.account import failures_section, headline, provenance_section, status, verdict_section
+from reports.sweep.amounts import DESIGNS
+from reports.sweep.folder import STUDY, Sweep, load_sweep
 from reports.sweep.held import all_held, sentence
 from reports.sweep.indices import indices_section
-from reports.sweep.load import STUDY, Sweep, load_sweep
 from reports.sweep.page_data import page_data
+from reports.sweep.provenance import failures_section, provenance_section
 from reports.sweep.responses import held_section, responses_section
-from reports.sweep.words import DESIGNS
+from reports.sweep.verdict import headline, status, verdict_section
 from reports.wording.numbers import counted, listed
 
 HTML, PDF = "index.html", "index.pdf"

@@ -1,4 +1,4 @@
-"""Where a band holds, in numbers and words computed from the samples."""
+"""Samples in which a band holds, in numbers and words."""
 
 import math
 from collections.abc import Sequence
@@ -9,8 +9,8 @@ import pandas as pd
 
 from cases.arrays import Flags, Floats
 from cases.results.sweep import KeptOutput, OutputBand, VariedParameter
-from reports.sweep.load import Sweep
-from reports.sweep.words import amount
+from reports.sweep.amounts import amount
+from reports.sweep.folder import Sweep
 from reports.wording.numbers import SPACE, counted
 
 _WORTH_SAYING = 0.2  # of the samples that one parameter alone decides

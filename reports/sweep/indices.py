@@ -1,4 +1,4 @@
-"""Section 4 of a sweep's page: Sobol indices with their intervals."""
+"""Section of a sweep's page: Sobol indices with their intervals."""
 
 from functools import partial
 
@@ -7,10 +7,10 @@ import numpy as np
 from cases.arrays import Floats
 from cases.results.sweep import KeptOutput, SobolIndex
 from reports.blocks import Block, Column, Figure, Paragraph, Section, Subsection, Table
-from reports.sweep.drawing import Bars, index_bars
-from reports.sweep.load import Sweep
+from reports.sweep.folder import Sweep
+from reports.sweep.index_bars import Bars, index_bars
+from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import ABSENT, fixed
-from reports.wording.tabular import comma_separated
 
 _PANELS = 6  # outputs of one figure
 _KINDS = ("S1", "S1_conf", "ST", "ST_conf")

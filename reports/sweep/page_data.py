@@ -1,25 +1,25 @@
-"""What the page's picture of the samples is drawn from."""
+"""Data of the page's picture of the samples."""
 
-import json
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from cases.results.sweep import KeptOutput, VariedParameter
-from reports.sweep.load import OK, Sweep, shown
+from reports.sweep.amounts import is_error
+from reports.sweep.folder import OK, Sweep, shown
 from reports.sweep.responses import logarithmic
-from reports.sweep.words import is_error
 
 MOST_SAMPLES = 5000  # points that a browser still moves at ease
 
 
-def page_data(sweep: Sweep) -> str:
-    """Return the JSON for the page's scripts: display units, every n-th sample of a very large sweep."""
+def page_data(sweep: Sweep) -> dict[str, Any]:
+    """Return JSON values for the page's scripts: display units, every n-th sample of a very large sweep."""
     done = sweep.samples[sweep.samples["status"] == OK]
     done = done.iloc[:: -(-len(done) // MOST_SAMPLES) or 1]
     judged = [k for k, output in enumerate(sweep.study.outputs) if output.band]
     errors = [k for k, output in enumerate(sweep.study.outputs) if is_error(output)]
-    content = {
+    return {
         "variants": sweep.variants,
         "variant": [sweep.variants.index(name) for name in done["variant"]],
         "sample": [int(number) for number in done["sample"]],
@@ -32,7 +32,6 @@ def page_data(sweep: Sweep) -> str:
             for o in sweep.study.outputs
         ],
     }
-    return json.dumps(content, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
 def _column(item: VariedParameter | KeptOutput, samples: pd.DataFrame) -> dict[str, object]:

@@ -1,4 +1,4 @@
-"""Sections 2 and 3 of a sweep's page: where bands hold, and outputs over parameters."""
+"""Sections of a sweep's page: where bands hold, and outputs over parameters."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -9,12 +9,12 @@ import pandas as pd
 
 from cases.results.sweep import KeptOutput, VariedParameter
 from reports.blocks import Block, Figure, Interactive, Paragraph, Section, Subsection
-from reports.sweep.drawing import Abscissa, Ordinate, Plane, planes, responses
+from reports.sweep.amounts import amount, axis_label, ends, is_error, steady
+from reports.sweep.folder import Sweep, shown
 from reports.sweep.held import Held, sentence, varied
-from reports.sweep.load import Sweep, shown
-from reports.sweep.words import amount, axis_label, ends, is_error, steady
+from reports.sweep.scatter import Abscissa, Ordinate, Plane, planes, responses
+from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import fixed, listed, plus
-from reports.wording.tabular import comma_separated
 
 _ROWS = 5  # outputs of one figure
 _COLUMNS = 4  # parameters side by side

@@ -1,1 +1,1 @@
-"""How quantities, numbers, places and tables are written."""
+"""Words and formats of quantities, numbers, places and tables."""

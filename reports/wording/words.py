@@ -1,4 +1,4 @@
-"""How quantities, statistics and cells are named in a report."""
+"""Words for quantities, statistics and cells in a report."""
 
 import math
 from collections.abc import Sequence

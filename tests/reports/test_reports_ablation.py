@@ -1,11 +1,12 @@
 """The report's section on what each part of the model buys."""
 
 import json
+from types import SimpleNamespace
 
 import pytest
 
 from reports import ReportError
-from reports.sections.ablation import ablation_section
+from reports.sections.ablation import section
 
 ROW = {
     "variant": "local",
@@ -24,16 +25,16 @@ ROW = {
 
 def written(folder, *rows):
     (folder / "ablation.json").write_text(json.dumps(rows))
-    return ablation_section(folder)
+    return section(SimpleNamespace(directory=folder))
 
 
 def test_without_rows_there_is_no_section(tmp_path):
-    assert ablation_section(tmp_path) is None
+    assert section(SimpleNamespace(directory=tmp_path)) is None
 
 
 def test_a_row_a_model(tmp_path):
-    section = written(tmp_path, ROW, {**ROW, "model": "other", "failure": "the membrane buckles"})
-    table = section.blocks[-1]
+    found = written(tmp_path, ROW, {**ROW, "model": "other", "failure": "the membrane buckles"})
+    table = found.blocks[-1]
     first, second = table.rows
     assert first[:4] == ("local", "membrane wall, section pressure", "0.63\u00a0%", "−1.78\u00a0%")
     assert first[-2:] == ("−3.50\u00a0%", "0.50")

@@ -14,7 +14,7 @@ import typst
 import xarray as xr
 
 from cases.fields import FIELDS
-from reports.figures.drawn import draw
+from reports.figures.two_processes import draw
 from reports.pdf.render import render_pdf
 from reports.result.load import load
 from reports.sections import cycle

@@ -350,7 +350,7 @@ def test_rows_that_the_report_does_not_know_are_shown(tmp_path: Path, small: syn
     comparison = load(tmp_path)
     cycle_rows = _table(change.section(comparison), "cycle-quantities").rows
     assert [row[3:5] for row in cycle_rows if row[0] == "wall shear stress"] == [("1.200", "1.500")]
-    found = {row[1:3]: row[3:] for row in _table(assumptions.checks_section(comparison), "further").rows}
+    found = {row[1:3]: row[3:] for row in _table(assumptions.section(comparison), "further").rows}
     said = {key: tuple(text.replace("\u00a0", " ") for text in texts) for key, texts in found.items()}
     assert said["wall shear stress", "largest"] == ("4.500 Pa", "—", "—", "i = 3, j = 2")
     assert said["lumen radius", "waveform correlation"] == ("—", "—", "+3.10 %", "—")

@@ -7,7 +7,7 @@ from synthetic_comparison import Setup, write
 
 from reports.errors import ReportError
 from reports.result.load import load
-from reports.sections import cost
+from reports.sections.parts import cost
 
 COST = {
     "log": "none.log",

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from reports.figures.curves import small_multiples
-from reports.figures.drawn import draw, helper
 from reports.figures.heat_maps import cell_borders
 from reports.figures.panels import Curves, PanelRow
 from reports.figures.tubes import Tube, tubes
+from reports.figures.two_processes import draw, helper
 
 
 def _drawing(label: str) -> partial[str]:

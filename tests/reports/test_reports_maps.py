@@ -14,7 +14,7 @@ from reports import write_reports
 from reports.blocks import Figure, Paragraph, Section, Subsection, Table
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
 from reports.result.load import load
-from reports.sections import assumptions, exponents, maps
+from reports.sections import assumptions, dominance, exponents, maps
 
 Rows = list[dict[str, Any]]
 
@@ -115,7 +115,7 @@ def test_cells_are_images_within_a_drawing_that_does_not_change() -> None:
 def test_dominance_tables_hold_the_metrics(finished: tuple[Path, Rows]) -> None:
     directory, rows = finished
     comparison = load(directory)
-    tables = _tables(assumptions.dominance_section(comparison))
+    tables = _tables(dominance.section(comparison))
     values = {
         (row["quantity"], row["variant"], row["i"], row["j"]): row["reference"]
         for row in rows
@@ -129,7 +129,7 @@ def test_dominance_tables_hold_the_metrics(finished: tuple[Path, Rows]) -> None:
                 value = values[quantity, row[0], i, int(row[1])]
                 assert _number(text) == pytest.approx(value, abs=5.001e-4)
     worst = max(row["reference"] for row in rows if row["quantity"] == "axial_dominance_radial")
-    sentence = assumptions.dominance_section(comparison).blocks[0]
+    sentence = dominance.section(comparison).blocks[0]
     assert isinstance(sentence, Paragraph)
     assert f"not everywhere small beside v_x: the largest ratio, |v_r|/v_x = {worst:.3f}" in sentence.text
 
@@ -151,20 +151,20 @@ def test_where_the_2d_model_has_its_largest_radial_velocity(
     own = {**three, "variant": "local", "reference": None, "rom": 1.217, "i": i, "j": j + 1}
     (tmp_path / "metrics.json").write_text(json.dumps([*rows, own]))
     comparison = load(tmp_path)
-    section = assumptions.dominance_section(comparison)
+    section = dominance.section(comparison)
     assert isinstance(section.blocks[0], Paragraph)
     text = section.blocks[0].text.replace("\u00a0", " ")
     assert f"largest in variant local at i = {i}, j = {j + 1}, |v_r|/v_x = 1.217" in text
     assert ("jumps from one cell to the next" in text) == told
     line = next(row for row in _tables(section)["largest-dominance"].rows if row[0] == "local")
     assert [line[3], line[4].replace("\u00a0", " ")] == ["1.217", f"i = {i}, j = {j + 1}"]
-    figures = _tables(assumptions.checks_section(comparison))["assumption-figures"]
+    figures = _tables(assumptions.section(comparison))["assumption-figures"]
     assert next(row for row in figures.rows if row[0] == "no radial velocity")[-1] == "1.217"
 
 
 def test_assumptions_are_those_of_both_models(finished: tuple[Path, Rows]) -> None:
     directory, _ = finished
-    table = _tables(assumptions.checks_section(load(directory)))["assumption-figures"]
+    table = _tables(assumptions.section(load(directory)))["assumption-figures"]
     found = {row[0]: [text.replace("\u00a0", " ") for text in row[2:]] for row in table.rows}
     with xr.open_dataset(directory / "comparison.nc", decode_times=False) as data:
         for model, column in (("reference", 4), ("rom", 5)):
@@ -179,7 +179,7 @@ def test_an_older_result_without_dominance_is_shown(tmp_path: Path, small: synth
     rows = synthetic.write(tmp_path, small)
     kept = [row for row in rows if "dominance" not in row["quantity"]]
     (tmp_path / "metrics.json").write_text(json.dumps(kept))
-    section = assumptions.dominance_section(load(tmp_path))
+    section = dominance.section(load(tmp_path))
     assert [type(block) for block in section.blocks] == [Paragraph]
 
 

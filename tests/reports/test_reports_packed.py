@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from reports.html.packed import ABSENT, LEVELS, Packed, pack
-from reports.html.page_data import page_data
 from reports.result.load import load
+from reports.sections.content import report
 
 
 def unpack(packed: Packed) -> np.ndarray:
@@ -54,7 +54,7 @@ def test_smooth_fields_take_a_third_of_their_whole_numbers() -> None:
 
 def test_the_page_has_every_metric_and_every_cell(finished: tuple[Path, list[dict[str, Any]]]) -> None:
     directory, rows = finished
-    data = json.loads(page_data(load(directory)))
+    data = json.loads(report(load(directory)).page_data())
     assert len(data["metrics"]["error"]) == len(rows)
     field = data["fields"]["radius"]
     assert field["unit"] == "mm"
@@ -70,6 +70,6 @@ def test_plug_flow_does_not_coarsen_other_exponents(
     fields = synthetic.fields(small)
     fields["rom_profile_exponent"][0, 0, 0, 0] = value
     synthetic.dataset(small, fields).to_netcdf(tmp_path / "comparison.nc")
-    data = json.loads(page_data(load(tmp_path)))["fields"]["profile_exponent"]["rom"][0]
+    data = json.loads(report(load(tmp_path)).page_data())["fields"]["profile_exponent"]["rom"][0]
     back = unpack(Packed(tuple(data["shape"]), data["low"], data["step"], data["data"]))
     assert back[0, 0, 0] == pytest.approx(shown, nan_ok=True)

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 from cases.results.metric_row import metric_row
 from reports.result.metrics import Metrics
-from reports.sections import change_apart, further, pooled
+from reports.sections.parts import change_apart, further, pooled
 
 
 def row(statistic, error, rom=None, reference=None, variant="local"):

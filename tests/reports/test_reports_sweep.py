@@ -17,13 +17,13 @@ from reports import ReportError
 from reports.__main__ import main
 from reports.blocks import Table
 from reports.sweep import write_sweep_page
-from reports.sweep.account import headline
+from reports.sweep.amounts import amount, axis_label, ends
 from reports.sweep.build import sweep_report
-from reports.sweep.drawing import means
+from reports.sweep.folder import load_sweep
 from reports.sweep.held import Held, all_held, sentence, splits
-from reports.sweep.load import load_sweep
 from reports.sweep.page_data import page_data
-from reports.sweep.words import amount, axis_label, ends
+from reports.sweep.scatter import means
+from reports.sweep.verdict import headline
 
 PARAMETER = VariedParameter(name="p", label="stiffness", unit="MPa", display_factor=1e-6, kind="list")
 OTHER = VariedParameter(name="o", label="angle", unit="deg", display_factor=1.0, kind="list")
@@ -178,7 +178,7 @@ def test_the_page_is_the_same_for_the_same_folder(tmp_path: Path) -> None:
 
 def test_the_pages_numbers_are_the_samples_in_display_units(tmp_path: Path) -> None:
     table = synthetic.write(tmp_path / "s")
-    page = json.loads(page_data(load_sweep(tmp_path / "s")))
+    page = page_data(load_sweep(tmp_path / "s"))
     done = table[table["status"] == "ok"]
     assert page["sample"] == done["sample"].tolist()
     np.testing.assert_allclose(
@@ -310,6 +310,6 @@ def test_errors_lead_where_no_band_judges_them(tmp_path: Path) -> None:
     sweep = load_sweep(tmp_path)
     said = _plain(headline(sweep, ()))
     assert "no band judges them. Median and largest error: RMS error of the lumen radius" in said
-    data = json.loads(page_data(sweep))
+    data = page_data(sweep)
     assert data["outputs"][data["start"]]["label"] == "RMS error of the lumen radius"
     assert _table(sweep, "outputs").rows[0][0] == "RMS error of the lumen radius"

@@ -14,7 +14,7 @@ from small_sweep import GRID, records, small_study, study_file, swept
 from cases.reading.case_file import load_case_file
 from febio_io.errors import FebioError
 from reports.errors import ReportError
-from reports.sweep.load import load_sweep
+from reports.sweep.folder import load_sweep
 from solver.case.run import run_case
 from validation.ablation.ladder import coupled_model
 from validation.compare import command as compare

@@ -5,7 +5,6 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from rich.console import Console
@@ -15,6 +14,7 @@ from rich.table import Table
 from cases.errors import CaseError
 from cases.fields import FIELDS
 from cases.reading.case_file import CaseFile, load_case_file
+from reports.figures.plots import convergence_plots
 from solver.errors import SolverError
 from validation.converge.refinement import STUDIES, Refined, levels, refined
 from validation.errors import ValidationError
@@ -100,29 +100,18 @@ def print_table(console: Console, found: Sequence[Refined]) -> None:
 
 
 def draw(found: Sequence[Refined], path: Path) -> None:
-    """Draw the change of each number of the cycle from level to level, with slopes of orders 1 and 2."""
-    variants = list(dict.fromkeys(number.variant for number in found))
-    figure, axes = plt.subplots(
-        len(variants), len(STUDIES), figsize=(9.0, 3.2 * len(variants)), squeeze=False, sharey=True
-    )
-    for (row, variant), (column, what) in ((a, b) for a in enumerate(variants) for b in enumerate(STUDIES)):
-        axis = axes[row, column]
-        for number in found:
-            if (number.variant, number.study, number.where) == (variant, what, "cycle"):
-                changes = np.abs(np.diff(number.values)) / max(abs(number.values[-1]), np.finfo(float).tiny)
-                axis.loglog(
-                    [1.0, 0.5], np.maximum(changes, 1e-16), "o-", label=FIELDS[number.quantity].symbol
-                )
-        for order, style in ((1, ":"), (2, "--")):
-            axis.loglog([1.0, 0.5], [1e-3, 1e-3 * 0.5**order], style, color="0.5", label=f"order {order}")
-        axis.invert_xaxis()
-        axis.set_title(f"{variant}: {what}")
-        axis.set_xlabel("finer level's spacing over the case's own")
-        axis.set_ylabel("relative change")
-    axes[0, 0].legend(fontsize=7, ncols=2)
-    figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
-    plt.close(figure)
+    """Draw how each number of the cycle changes from level to level."""
+    variants = dict.fromkeys(number.variant for number in found)
+    numbers = {
+        (variant, what): [
+            (FIELDS[number.quantity].symbol, np.array(number.values))
+            for number in found
+            if (number.variant, number.study, number.where) == (variant, what, "cycle")
+        ]
+        for variant in variants
+        for what in STUDIES
+    }
+    convergence_plots(numbers, path)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

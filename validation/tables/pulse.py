@@ -10,9 +10,9 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from cases.arrays import Floats
+from reports.figures.plots import Plot, stacked_plots
 from solver.marching.godunov import march
 from solver.marching.godunov_setup import reference_state
 from validation.tables.artery import HEALTHY, LENGTH, RADIUS, artery
@@ -110,23 +110,31 @@ def _rows(results: Results) -> list[Check]:
     return rows
 
 
+def _lines(results: Results, method: str, figure: str) -> list[tuple[str, Floats, Floats]]:
+    """R (mm) over x (mm) of each grid at hand."""
+    radii = [
+        np.array(numbers(results[entry], f"radius_mm {figure}"), dtype=float)
+        for refinement in REFINEMENTS
+        if (entry := _pulse_name(refinement, method)) in results
+    ]
+    return [
+        (f"n_x = {radius.size}", (np.arange(radius.size) + 0.5) * LENGTH / radius.size * 1e3, radius)
+        for radius in radii
+    ]
+
+
 def _draw(results: Results, folder: Path) -> list[Path]:
-    paths = []
-    for name in TIMES:
-        figure = Figure(figsize=(7, 8), layout="constrained")
-        for axes, (method, label) in zip(figure.subplots(3, 1, sharex=True), METHODS.items(), strict=True):
-            for refinement in REFINEMENTS:
-                entry = _pulse_name(refinement, method)
-                if entry in results:
-                    radius = numbers(results[entry], f"radius_mm {name}")
-                    x = (np.arange(len(radius)) + 0.5) * LENGTH / len(radius) * 1e3
-                    axes.plot(x, np.array(radius, dtype=float), linewidth=0.8, label=f"n_x = {len(radius)}")
-            axes.set(xlabel="x, mm", ylabel="R, mm", title=f"{label}, t = {TIMES[name] * 1e3:g} ms")
-            if axes.lines:
-                axes.legend(fontsize="x-small", ncols=2)
-        paths.append(folder / f"figure_{name.replace('.', '_')}.png")
-        figure.savefig(paths[-1], dpi=150)
-    return paths
+    return [
+        stacked_plots(
+            [
+                Plot(f"{label}, t = {time * 1e3:g} ms", "x, mm", "R, mm", _lines(results, method, name))
+                for method, label in METHODS.items()
+            ],
+            (7, 8),
+            folder / f"figure_{name.replace('.', '_')}.png",
+        )
+        for name, time in TIMES.items()
+    ]
 
 
 EXPERIMENT = Experiment(

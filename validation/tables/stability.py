@@ -9,8 +9,8 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from reports.figures.plots import Plot, stacked_plots
 from solver.errors import RunFailure
 from solver.marching.godunov import march, march_to_steady, thesis_criteria
 from solver.marching.godunov_setup import held, load, reference_state
@@ -103,16 +103,18 @@ def _limit_rows(results: Results) -> list[Check]:
 
 def _draw(results: Results, folder: Path) -> list[Path]:
     paths = []
-    for model, figure_name in FIGURES.items():
+    for model, figure in FIGURES.items():
         points = [(step, courant) for step, courant in _curve(model, results) if courant is not None]
-        figure = Figure(figsize=(6, 4), layout="constrained")
-        axes = figure.subplots()
-        axes.plot([step for step, _ in points], [courant for _, courant in points], ".", markersize=3)
-        axes.axhline(1.0, color="0.6", linewidth=0.8)
-        axes.axvline(quoted(LIMITS[model], model), color="0.6", linewidth=0.8, linestyle="--")
-        axes.set(xlabel="Δt, µs", ylabel="largest Courant number", title=f"Calcification: {model}")
-        paths.append(folder / f"figure_{figure_name.replace('.', '_')}.png")
-        figure.savefig(paths[-1], dpi=150)
+        steps, courants = np.array(points).reshape(-1, 2).T
+        plot = Plot(
+            f"Calcification: {model}",
+            "Δt, µs",
+            "largest Courant number",
+            [("", steps, courants)],
+            points=True,
+            guides=(1.0, quoted(LIMITS[model], model)),
+        )
+        paths.append(stacked_plots([plot], (6, 4), folder / f"figure_{figure.replace('.', '_')}.png"))
     return paths
 
 

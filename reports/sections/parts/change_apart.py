@@ -1,4 +1,4 @@
-"""How far apart the changes by calcification are in both models, over all cells and states."""
+"""Distance of the changes by calcification in both models, over all cells and states."""
 
 from reports.blocks import Column, Table
 from reports.result.load import Comparison

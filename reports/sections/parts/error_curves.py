@@ -1,4 +1,4 @@
-"""How the error of the closest profile depends on its exponent γ, at the shown cells."""
+"""Error of the closest profile over its exponent γ, at the shown cells."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,9 +12,9 @@ from reports.blocks import Figure
 from reports.figures.curves import REFERENCE_COLOUR, ROM_COLOUR, small_multiples
 from reports.figures.panels import Curves, PanelRow
 from reports.result.load import Comparison
-from reports.sections.cells import chunks
+from reports.sections.parts.cells import chunks
+from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import SPACE, fixed, listed, percent, unsigned
-from reports.wording.tabular import comma_separated
 from reports.wording.words import column_heading, instant, place, row_heading, top_to_bottom
 
 _LOW, _HIGH, _MOST = 1.0, 6.0, 30.0  # exponents of the curves: a cusp, a blunt profile, nearly plug flow

@@ -1,4 +1,4 @@
-"""How parameters, outputs and their values are written on the page of a sweep."""
+"""Words for parameters, outputs and their values on the page of a sweep."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""What all figures share: size, style, and how they become SVG."""
+"""Size and style that all figures share, and the way they become SVG."""
 
 import io
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What the reference states: tables give single values, a simulation gives fields."""
+"""Values that the reference states: tables give single ones, a simulation gives fields."""
 
 from collections.abc import Callable, Iterable
 

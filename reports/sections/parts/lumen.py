@@ -6,11 +6,10 @@ import numpy as np
 import xarray as xr
 
 from cases.arrays import Floats
-from reports.wording.tabular import comma_separated
+from reports.wording.csv_text import comma_separated
 
 CELL_COLUMNS = ("t_s", "i", "j", "x_m", "phi_rad")
 DIGITS = 6  # thousands of cells: more would double the report
-WITHOUT_INSTANT = "The case names no instant to show maps at."
 
 
 def field(data: xr.Dataset, name: str, factor: float = 1.0) -> Floats:

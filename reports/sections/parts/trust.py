@@ -1,4 +1,4 @@
-"""How far the 3D side can be trusted: its own checks, variant by variant."""
+"""Trust in the 3D side: its own checks, variant by variant."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What the 3D simulation took beside the 2D model, and whether its own records confirm its plot file."""
+"""Cost of the 3D simulation beside the 2D model, and whether its own records confirm its plot file."""
 
 from cases.results.provenance import ReducedModelSettings, SimulationCost
 from reports.blocks import Column, Table

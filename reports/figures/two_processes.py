@@ -1,4 +1,4 @@
-"""Every figure of a report drawn once, by two processes where there are two processors."""
+"""Drawing of a report's figures, each once, by two processes where there are two processors."""
 
 import os
 import pickle
@@ -12,7 +12,7 @@ Drawing = Callable[[], str]
 Helper = subprocess.Popen[bytes]
 
 _PACKAGE_FOLDER = str(Path(__file__).resolve().parents[2])
-_PROGRAM = "from reports.figures.drawn import serve; serve()"
+_PROGRAM = "from reports.figures.two_processes import serve; serve()"
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""Pictures of a sweep: samples as points, failures of a band as crosses, as vectors but for large clouds."""
+"""Samples of a sweep as points over its parameters, those that fail a band as crosses."""
 
 import textwrap
 from collections.abc import Sequence
@@ -15,10 +15,10 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from cases.arrays import Flags, Floats
+from reports.figures.canvas import STYLE, WIDTH, legend_above, svg_text
 from reports.figures.curves import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
-from reports.figures.drawing import STYLE, WIDTH, legend_above, svg_text
 from reports.figures.heat_maps import edges_of, scale_colours
-from reports.sweep.words import steady
+from reports.sweep.amounts import steady
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.98, 0.10, 0.30, 0.62
 _GAP, _ROW_GAP = 0.12, 0.16
@@ -27,7 +27,6 @@ _LETTERS = 17.0  # an inch of a label of 7 points
 _STEADY_HALF = 0.05  # of a value that hardly varies, shown on either side of it
 _MANY = 200  # points that are drawn as an image
 _NEIGHBOURS, _MOST_GROUPS = 8, 12  # samples of a mean; means of a curve
-_BAR_COLOURS = (ROM_COLOUR, "#e69f00")
 
 
 @dataclass(frozen=True)
@@ -70,15 +69,15 @@ def responses(columns: Sequence[Abscissa], rows: Sequence[Ordinate]) -> str:
                 _response(axis, column, row)
                 axis.tick_params(labelleft=place == 0, labelbottom=number == len(rows) - 1)
                 if place == 0:
-                    axis.set_ylabel(_wrapped(row.label, _HEIGHT), fontsize=6.5)
+                    axis.set_ylabel(wrapped(row.label, _HEIGHT), fontsize=6.5)
                 if number == len(rows) - 1:
-                    axis.set_xlabel(_wrapped(column.label, width), fontsize=7.0)
+                    axis.set_xlabel(wrapped(column.label, width), fontsize=7.0)
         _legend(figure, any(np.isfinite(row.limit) for row in rows))
         return svg_text(figure)
 
 
 def _response(axis: Axes, column: Abscissa, row: Ordinate) -> None:
-    _bare(axis)
+    bare(axis)
     _scales(axis, column)
     many = row.values.size > _MANY
     for which, marker, colour in ((row.ok, "o", ROM_COLOUR), (~row.ok, "x", DIFFERENCE_COLOUR)):
@@ -149,8 +148,8 @@ def planes(pairs: Sequence[Plane], row: Ordinate) -> str:
             left = _LEFT + place * (width + gap)
             axis = figure.add_axes((left / WIDTH, _BOTTOM / total, width / WIDTH, height / total))
             _plane(axis, pair, row, norm)
-            axis.set_xlabel(_wrapped(pair.across.label, width), fontsize=7.0)
-            axis.set_ylabel(_wrapped(pair.up.label, height), fontsize=7.0)
+            axis.set_xlabel(wrapped(pair.across.label, width), fontsize=7.0)
+            axis.set_ylabel(wrapped(pair.up.label, height), fontsize=7.0)
         left = _LEFT + len(pairs) * width + (len(pairs) - 1) * gap + 0.08
         scale = figure.add_axes((left / WIDTH, _BOTTOM / total, bar / WIDTH, height / total))
         _bar(scale, norm, row)
@@ -223,83 +222,11 @@ def _bar(axis: Axes, norm: Normalize, row: Ordinate) -> None:
     low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
     scale_colours(axis, norm, colormaps["viridis"])
     axis.yaxis.set_major_locator(MaxNLocator(5))
-    axis.set_ylabel(_wrapped(row.label, 1.75), fontsize=7.0)
+    axis.set_ylabel(wrapped(row.label, 1.75), fontsize=7.0)
     for limit in _limits(row):
         if low <= limit <= high:
             for colour, width in (("#ffffff", 2.4), ("#000000", 1.0)):
                 axis.axhline(limit, color=colour, linewidth=width)
-
-
-@dataclass(frozen=True)
-class Bars:
-    """Indices of one output: first order and total, a value and half an interval for each parameter."""
-
-    title: str
-    first: Floats
-    first_half: Floats
-    total: Floats
-    total_half: Floats
-
-
-def index_bars(names: Sequence[str], panels: Sequence[Bars]) -> str:
-    """Draw Sobol indices with their intervals, a panel an output, a pair of bars a parameter."""
-    with style.context(STYLE):
-        across = 2
-        lines = -(-len(panels) // across)
-        height = 0.30 + 0.30 * len(names)
-        gap, left, row_gap = 0.25, 1.75, 0.55
-        total = 0.62 + 0.40 + lines * height + (lines - 1) * row_gap
-        figure = Figure(figsize=(WIDTH, total))
-        FigureCanvasSVG(figure)
-        width = (WIDTH - left - 0.1 - gap * (across - 1)) / across
-        places = np.arange(len(names), dtype=float)
-        for number, panel in enumerate(panels):
-            line, column = divmod(number, across)
-            bottom = total - 0.62 - (line + 1) * height - line * row_gap
-            axis = figure.add_axes(
-                ((left + column * (width + gap)) / WIDTH, bottom / total, width / WIDTH, height / total)
-            )
-            _bare(axis)
-            for shift, colour, hatch, values, halves in (
-                (-0.19, _BAR_COLOURS[0], "", panel.first, panel.first_half),
-                (0.19, _BAR_COLOURS[1], "////", panel.total, panel.total_half),
-            ):
-                axis.barh(
-                    places + shift,
-                    values,
-                    height=0.36,
-                    color=colour,
-                    edgecolor="#1a1a1a",
-                    linewidth=0.4,
-                    hatch=hatch,
-                    xerr=halves,
-                    error_kw={"elinewidth": 0.8, "capsize": 1.6},
-                )
-            axis.set_xlim(min(0.0, _least(panel)), max(1.0, _most(panel)))
-            axis.invert_yaxis()
-            axis.set_yticks(
-                places, [_wrapped(name, 1.6) for name in names] if column == 0 else [""] * len(names)
-            )
-            axis.set_title(_wrapped(panel.title, width), fontsize=7.0, pad=2.5)
-            axis.set_xlabel("Sobol index (–)" if line == lines - 1 else "", fontsize=7.0)
-        _index_legend(figure)
-        return svg_text(figure)
-
-
-def _least(panel: Bars) -> float:
-    return float(np.nanmin([panel.first - panel.first_half, panel.total - panel.total_half], initial=0.0))
-
-
-def _most(panel: Bars) -> float:
-    return float(np.nanmax([panel.first + panel.first_half, panel.total + panel.total_half], initial=0.0))
-
-
-def _index_legend(figure: Figure) -> None:
-    handles = [
-        Line2D([], [], color=colour, linewidth=4.0, label=words)
-        for colour, words in zip(_BAR_COLOURS, ("first order S1", "total ST (hatched)"), strict=True)
-    ]
-    figure.legend(handles=handles, loc="upper left", ncols=2, frameon=False, fontsize=7.5, borderaxespad=0.3)
 
 
 def _legend(figure: Figure, judged: bool) -> None:
@@ -330,7 +257,8 @@ def _marker(marker: str, colour: str) -> dict[str, Any]:
     }
 
 
-def _bare(axis: Axes) -> None:
+def bare(axis: Axes) -> None:
+    """Leave an axis a grid and two spines."""
     axis.spines[["top", "right"]].set_visible(False)
     axis.grid(color="#d8d8d8", linewidth=0.4)
     axis.set_axisbelow(True)
@@ -340,5 +268,6 @@ def _scales(axis: Axes, column: Abscissa) -> None:
     axis.set_xscale("log" if column.logarithmic else "linear")
 
 
-def _wrapped(label: str, inches: float) -> str:
+def wrapped(label: str, inches: float) -> str:
+    """Break a label into lines of so many inches."""
     return "\n".join(textwrap.wrap(label, max(10, int(_LETTERS * inches)), break_long_words=False))

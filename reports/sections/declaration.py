@@ -1,0 +1,61 @@
+"""The declaration of a section: key, title, what it needs, and what it says."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from reports.blocks import Block, Paragraph, Section, Subsection
+from reports.result.load import Comparison
+
+Blocks = tuple[Block | Subsection, ...]
+
+
+@dataclass(frozen=True)
+class Need:
+    """A condition of a section, and the line that stands for all of it elsewhere; with "" it is left out."""
+
+    met: Callable[[Comparison], bool]
+    told: str = ""
+
+
+@dataclass(frozen=True)
+class Declared:
+    """A section of any comparison.
+
+    Attributes
+    ----------
+    key, title : str
+        Anchor and heading.
+    needs : tuple of Need
+        Asked in this order before anything is composed.
+    blocks : callable
+        What the section of a comparison says; nothing leaves it out.
+    """
+
+    key: str
+    title: str
+    needs: tuple[Need, ...]
+    blocks: Callable[[Comparison], Blocks]
+
+    def __call__(self, comparison: Comparison) -> Section | None:
+        """Return the section, or None where it has nothing to say."""
+        unmet = next((need for need in self.needs if not need.met(comparison)), None)
+        if unmet is not None:
+            return Section(self.key, self.title, (Paragraph(unmet.told),)) if unmet.told else None
+        blocks = self.blocks(comparison)
+        return Section(self.key, self.title, blocks) if blocks else None
+
+
+def declared(key: str, title: str, *needs: Need) -> Callable[[Callable[[Comparison], Blocks]], Declared]:
+    """Return the decorator that makes a section of the function that gives its blocks."""
+    return partial(Declared, key, title, needs)
+
+
+def instants(what: str) -> Need:
+    """Need of an instant that the case names."""
+    return Need(lambda comparison: bool(comparison.times), f"The case names no instant to show {what} at.")
+
+
+def result_file(name: str) -> Need:
+    """Need of a file in the comparison's directory that not every comparison has."""
+    return Need(lambda comparison: (comparison.directory / name).is_file())

@@ -1,0 +1,152 @@
+"""Section on axial dominance: how small the velocities are that the 2D model neglects."""
+
+from cases.results.metric_row import MetricRow, Model
+from reports.blocks import Block, Column, Paragraph, Table
+from reports.result.load import Comparison
+from reports.sections.declaration import Blocks, declared
+from reports.sections.parts.cells import chunks
+from reports.wording.numbers import ABSENT, SPACE, fixed
+from reports.wording.words import place
+
+RADIAL, AZIMUTHAL = "axial_dominance_radial", "axial_dominance_azimuthal"
+RATIOS = {RADIAL: "|v_r|/v_x", AZIMUTHAL: "|v_φ|/v_x"}
+_MODELS: dict[Model, str] = {"reference": "3D", "rom": "2D"}
+_DECIMALS = 3
+_NEGLIGIBLE = 0.1
+
+
+def ratio(value: float | None) -> str:
+    """Write a ratio; one too small for the decimals is not shown as zero."""
+    if value is not None and 0 < value < 0.5 * 10**-_DECIMALS:
+        return f"<{SPACE}{10**-_DECIMALS:.{_DECIMALS}f}"
+    return fixed(value, _DECIMALS)
+
+
+def _dominance_tables(comparison: Comparison, quantity: str, model: str = "3D") -> tuple[Table, ...]:
+    """Return the ratio of a model at the shown cells, a line per variant and row j; 2D where it has one."""
+
+    def value(row: MetricRow | None) -> float | None:
+        return None if row is None else row.reference if model == "3D" else row.rom
+
+    tables = []
+    for cells in chunks(comparison.i):
+        rows = [
+            (variant, str(j), *(ratio(value(row)) for row in found))
+            for variant in comparison.variants
+            for j in comparison.rows_of(variant)
+            for found in ([comparison.metrics.find(variant, quantity, "value", i, j) for i in cells],)
+            if any(value(row) is not None for row in found)
+        ]
+        if rows:
+            columns = (
+                Column("variant"),
+                Column("j", "number"),
+                *(Column(f"i = {i}", "number") for i in cells),
+            )
+            marked = frozenset(
+                (number, 2 + column)
+                for number, (variant, j, *_) in enumerate(rows)
+                for column, i in enumerate(cells)
+                if comparison.calcified(variant, i, int(j))
+            )
+            caption = (
+                f"Largest {RATIOS[quantity]} of {model} over the ray and the cycle at the shown cells."
+                + (" Shaded: inside the calcification." if marked else "")
+            )
+            key = f"{quantity.replace('_', '-')}-{cells[0]}" + ("" if model == "3D" else "-2d")
+            tables.append(Table(key, caption, columns, tuple(rows), 0, marked, "inside the calcification"))
+    return tuple(tables)
+
+
+def _largest_table(comparison: Comparison) -> Table | None:
+    shown = [
+        (quantity, model)
+        for quantity in RATIOS
+        for model in _MODELS
+        if any(comparison.metrics.largest_row(name, quantity, model) for name in comparison.variants)
+    ]
+    rows = []
+    for variant in comparison.variants:
+        found = [comparison.metrics.largest_row(variant, *which) for which in shown]
+        if any(found):
+            texts = (
+                (ratio(getattr(row, model)), place(row)) if row else (ABSENT, ABSENT)
+                for row, (_, model) in zip(found, shown, strict=True)
+            )
+            rows.append((variant, *(text for pair in texts for text in pair)))
+    if not rows:
+        return None
+    columns = [Column("variant")]
+    for quantity, model in shown:
+        words = f"{RATIOS[quantity]} of {_MODELS[model]}"
+        columns += [Column("largest", "number", words), Column("at", "text", words)]
+    caption = "The largest ratios over all cells, and where they are."
+    return Table("largest-dominance", caption, tuple(columns), tuple(rows))
+
+
+def _dominance_sentence(comparison: Comparison) -> str:
+    rows = [
+        row
+        for variant in comparison.variants
+        for quantity in RATIOS
+        if (row := comparison.metrics.largest_row(variant, quantity, "reference"))
+    ]
+    opening = (
+        "The 2D model neglects the radial velocity v_r and the azimuthal velocity v_φ beside the axial v_x. "
+    )
+    if not rows:
+        return f"{opening}How small they are in 3D was not measured."
+    row = max(rows, key=lambda r: r.reference or 0.0)
+    verdict = (
+        "nowhere more than a tenth of"
+        if (row.reference or 0.0) <= _NEGLIGIBLE
+        else "not everywhere small beside"
+    )
+    return (
+        f"{opening}In 3D they are {verdict} v_x: the largest ratio, {RATIOS[row.quantity]} = "
+        f"{ratio(row.reference)}, is in variant {row.variant} at {place(row)}."
+    )
+
+
+def _implied_sentence(comparison: Comparison) -> str:
+    """Say where the 2D model's own radial velocity is largest, and whether that is at a jump of the wall."""
+    rows = [
+        row for name in comparison.variants if (row := comparison.metrics.largest_row(name, RADIAL, "rom"))
+    ]
+    if not rows:
+        return ""
+    row = max(rows, key=lambda r: r.rom or 0.0)
+    said = (
+        f"The v_r that follows from the 2D model's own v_x and mass balance is largest in variant "
+        f"{row.variant} at {place(row)}, {RATIOS[RADIAL]} = {ratio(row.rom)}"
+    )
+    if not _at_edge(comparison, row):
+        return f"{said}."
+    return (
+        f"{said}: beside the calcification's edge, where the radius of a row-local wall jumps from one cell "
+        "to the next. That slope is the jump over one cell, so this figure grows with a finer grid and is no "
+        "measure of the flow; 3D has no such jump."
+    )
+
+
+def _at_edge(comparison: Comparison, row: MetricRow) -> bool:
+    """Whether a row's cell or a neighbour along x differs from it in being calcified."""
+    if row.i is None or row.j is None:
+        return False
+    inside = comparison.fields["calcified"].sel(variant=row.variant).values[:, row.j - 1]
+    near = inside[max(0, row.i - 2) : row.i + 1]
+    return bool(near.any() and not near.all())
+
+
+@declared("dominance", "Axial dominance")
+def section(comparison: Comparison) -> Blocks:
+    """Return the ratios of the neglected velocities to the axial one."""
+    said = (_dominance_sentence(comparison), _implied_sentence(comparison))
+    blocks: list[Block] = [Paragraph(" ".join(filter(None, said)))]
+    largest = _largest_table(comparison)
+    if largest:
+        blocks.append(largest)
+    for quantity in RATIOS:
+        blocks += _dominance_tables(comparison, quantity)
+        blocks += _dominance_tables(comparison, quantity, "2D")
+    return tuple(blocks)

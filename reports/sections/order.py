@@ -1,0 +1,30 @@
+"""The sections of a report in reading order, a line each; their numbers follow from it."""
+
+from reports.sections import (
+    ablation,
+    artery,
+    assumptions,
+    change,
+    cycle,
+    dominance,
+    exponents,
+    maps,
+    provenance,
+    velocity,
+    verdict,
+)
+from reports.sections.declaration import Declared
+
+SECTIONS: list[Declared] = [
+    verdict.section,
+    change.section,
+    cycle.section,
+    velocity.section,
+    exponents.section,
+    maps.section,
+    dominance.section,
+    assumptions.section,
+    artery.section,
+    ablation.section,
+    provenance.section,
+]

@@ -1,0 +1,1 @@
+"""Tables, sentences and data that sections are put together from."""

@@ -1,0 +1,134 @@
+"""Sections of a sweep's page: failed samples, design and provenance."""
+
+import numpy as np
+
+from cases.results.sweep import KeptOutput, VariedParameter
+from reports.blocks import Block, Column, Listing, Paragraph, Section, Table
+from reports.sweep.amounts import DESIGNS, amount, is_error
+from reports.sweep.folder import FAILED, Sweep
+from reports.wording.numbers import ABSENT, listed, rounded
+
+_MOST_FAILURES = 200
+
+
+def failures_section(sweep: Sweep) -> Section:
+    """Build the section of the failed samples with their errors."""
+    failed = sweep.samples[sweep.samples["status"] == FAILED]
+    title = "Failed samples"
+    if failed.empty:
+        return Section("failures", title, (Paragraph("No sample failed."),))
+    rows = tuple(
+        (
+            str(int(row["sample"])),
+            str(row["variant"]),
+            *(amount(p, float(row[p.name])) for p in sweep.study.parameters),
+            str(row["error"]),
+        )
+        for _, row in failed.head(_MOST_FAILURES).iterrows()
+    )
+    more = f" The first {_MOST_FAILURES} of {len(failed)}." if len(failed) > _MOST_FAILURES else ""
+    table = Table(
+        "failed",
+        f"Samples without a value, what was varied in them, and their error.{more}",
+        (
+            Column("sample", "number"),
+            Column("variant"),
+            *(Column(p.label, "number") for p in sweep.study.parameters),
+            Column("error", "prose"),
+        ),
+        rows,
+    )
+    return Section("failures", title, (table,))
+
+
+def _drawn(parameter: VariedParameter) -> str:
+    """Say what values a parameter takes."""
+    if parameter.values is not None and len(parameter.values) <= 8:
+        listed_values = ", ".join(rounded(v * parameter.display_factor, 4) for v in parameter.values)
+        return f"{parameter.kind}: {listed_values}"
+    ends = f"{amount(parameter, parameter.low)} … {amount(parameter, parameter.high)}"
+    count = "" if parameter.values is None else f", {len(parameter.values)} values"
+    return f"{parameter.kind}: {ends}{count}"
+
+
+def _parameters(sweep: Sweep) -> Table:
+    return Table(
+        "parameters",
+        "What was varied; all other inputs are those of the base case.",
+        (
+            Column("parameter", "prose"),
+            Column("key", "prose"),
+            Column("unit"),
+            Column("base case", "number"),
+            Column("values", "prose"),
+        ),
+        tuple((p.label, p.name, p.unit, amount(p, p.base, 4), _drawn(p)) for p in sweep.study.parameters),
+    )
+
+
+def _outputs(sweep: Sweep) -> Table:
+    def figures(variant: str, output: KeptOutput) -> tuple[str, ...]:
+        values = sweep.done(variant)[output.name].to_numpy(dtype=float)
+        values = values[np.isfinite(values)]
+        if not values.size:
+            return (ABSENT,) * 5
+        parts = (values.min(), *np.quantile(values, (0.025, 0.5, 0.975)), values.max())
+        return tuple(rounded(float(value) * output.display_factor, 4) for value in parts)
+
+    return Table(
+        "outputs",
+        "What was kept of each sample, over all samples with a value: the ends and the quantiles between "
+        "which 95 % of the samples lie.",
+        (
+            Column("output", "prose"),
+            Column("variant"),
+            Column("unit"),
+            Column("least", "number"),
+            Column("2.5 %", "number"),
+            Column("median", "number"),
+            Column("97.5 %", "number"),
+            Column("largest", "number"),
+        ),
+        tuple(
+            (output.label, variant, output.unit, *figures(variant, output))
+            for output in sorted(sweep.study.outputs, key=lambda output: not is_error(output))
+            for variant in sweep.variants
+        ),
+        rule_by=0,
+    )
+
+
+def provenance_section(sweep: Sweep) -> Section:
+    """Build the last section."""
+    study = sweep.study
+    run = (
+        ("study", study.name),
+        ("base case", study.base_case),
+        ("variants", listed(study.variants)),
+        ("design", DESIGNS.get(study.design.kind, study.design.kind)),
+        ("samples", str(study.design.samples)),
+        ("seed", ABSENT if study.design.seed is None else str(study.design.seed)),
+        ("judged against", study.against or ABSENT),
+        ("state", f"{study.state}, {len(sweep.samples)} of {study.counts.total} samples recorded"),
+        ("created", study.created),
+        ("git commit", study.git_commit or ABSENT),
+    )
+    blocks: list[Block] = [
+        Paragraph(
+            "Every sample with its values is in samples/ (Parquet, SI units; any data-frame library reads "
+            "the folder). How to repeat it: check out the commit named below, and run the study again with "
+            "python -m validation.sweep."
+        ),
+        Table("run", "The sweep that this page draws.", (Column("what"), Column("value", "prose")), run),
+        _parameters(sweep),
+        _outputs(sweep),
+        Table(
+            "versions",
+            "Versions of the libraries.",
+            (Column("package"), Column("version", "prose")),
+            tuple((name, str(version)) for name, version in study.versions.items()),
+        ),
+    ]
+    if sweep.text:
+        blocks.append(Listing("The study", sweep.text))
+    return Section("provenance", "Design and provenance", tuple(blocks))
