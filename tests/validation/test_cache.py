@@ -15,12 +15,13 @@ from tube_plot import write_tube
 from tubes import Tube
 
 from cases.reading.case_file import load_case_file
+from solver.kept import ABANDONED
 from validation.compare import command as compare
 from validation.errors import ValidationError
 from validation.mapping.rays import rays
 from validation.reference.alignment import align
 from validation.runs import cached as cached_runs
-from validation.runs.cache import ABANDONED, Cache, Entry, open_cache
+from validation.runs.cache import Cache, Entry, open_cache
 from validation.runs.cached import canonical, reference_key, rom_key
 
 GENEROUS = ("radius", "rms_error", "50 %")

@@ -13,6 +13,7 @@ CASE = ("cases/arrays.py", "cases/errors.py", "cases/fields.py", "cases/sections
 SOLVER = (
     "solver/errors.py",
     "solver/geometry",
+    "solver/kept.py",
     "solver/kernel_cache.py",
     "solver/marching",
     "solver/model",
