@@ -40,7 +40,6 @@ Event = Literal["systole", "first trough", "second trough", "end diastole"]
 # a constant inlet has no largest and no least value
 EVENTS_OF_A_CONSTANT: tuple[Event, ...] = ("end diastole",)
 
-COMPARED_QUANTITIES = words_of(ComparedQuantity)
 RELATIVE_STATISTICS = words_of(RelativeStatistic)
 EVENTS = words_of(Event)
 

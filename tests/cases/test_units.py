@@ -1,5 +1,6 @@
 import math
 from decimal import Decimal
+from typing import get_args
 
 import pytest
 from hypothesis import given
@@ -7,7 +8,7 @@ from hypothesis import strategies as st
 
 from cases.errors import QuantityError
 from cases.fields import FIELDS
-from cases.sections.compare import COMPARED_QUANTITIES
+from cases.sections.compare import ComparedQuantity
 from cases.values.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity, parse_ratio
 
 FACTORS = {
@@ -126,7 +127,7 @@ def test_what_is_no_ratio_is_refused(text):
 
 
 def test_every_compared_quantity_can_carry_a_limit():
-    units = {FIELDS[name].unit for name in COMPARED_QUANTITIES}
+    units = {FIELDS[name].unit for name in get_args(ComparedQuantity)}
     assert units <= {"1", *DIMENSION_OF_UNIT}
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from comparisons import equal_models, two_models
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cases.sections.compare import COMPARED_QUANTITIES, RELATIVE_STATISTICS, Band
+from cases.sections.compare import RELATIVE_STATISTICS, Band, ComparedQuantity
 from validation.metrics.bands import band_rows, judged_value
 from validation.metrics.cycle_quantities import CYCLE_QUANTITIES
 
@@ -32,7 +33,7 @@ def scaled(models, quantity, factor):
     return replace(models, reference=changed)
 
 
-@pytest.mark.parametrize("quantity", COMPARED_QUANTITIES)
+@pytest.mark.parametrize("quantity", get_args(ComparedQuantity))
 @pytest.mark.parametrize("statistic", [*RELATIVE_STATISTICS, *DIFFERENCES])
 def test_every_band_that_can_be_declared_can_be_judged(quantity, statistic):
     models = two_models()
