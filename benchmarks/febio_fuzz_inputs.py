@@ -15,6 +15,7 @@ from log_samples import sample_log
 from xplt_samples import ITEMS, MESH, rich_file, sample_file, sample_sections, state_values
 from xplt_writer import Writer
 
+from febio_io import to_xarray
 from febio_io.errors import FebioError
 from febio_io.text.data_records import read_data_record
 from febio_io.text.log import read_log
@@ -44,7 +45,7 @@ def read_plot(path: Path) -> None:
     with open_plot(path) as plot:
         "\n".join(summary_lines(summarize(plot)))
         read_values(plot)
-        plot.to_xarray()
+        to_xarray(plot)
 
 
 def read_values(plot: Plot) -> None:

@@ -5,24 +5,25 @@ imports from another file does. A folder named after all sources together cannot
 and lies where the user may write even if the code does not.
 """
 
-import hashlib
 import os
 import tempfile
-from collections.abc import Iterable
 from pathlib import Path
 
 import numba
 
+from solver.sources import ROOT, sources_digest
+
 FOLDER = "arterial-rom-validation"
-KERNELS = ("solver/schemes", "validation/mapping")  # every folder with kernels: they share one cache
-
-
-def sources_digest(folders: Iterable[Path]) -> str:
-    """Digest of all Python sources in folders, names and contents."""
-    digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted(path for folder in folders for path in folder.rglob("*.py")):
-        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()[:16]
+KERNELS = (  # every module with kernels: they share one cache
+    "solver/schemes",
+    "validation/mapping/elements.py",
+    "validation/mapping/interpolation.py",
+    "validation/mapping/meshed_profiles.py",
+    "validation/mapping/nodal_shares.py",
+    "validation/mapping/profiles.py",
+    "validation/mapping/surface.py",
+    "validation/mapping/wall_radius.py",
+)
 
 
 def cache_folders() -> list[Path]:
@@ -54,7 +55,6 @@ def keep_kernels() -> None:
     """
     if "NUMBA_CACHE_DIR" in os.environ:
         return
-    root = Path(__file__).parents[1]
-    folder = usable_folder(sources_digest(root / folder for folder in KERNELS))
+    folder = usable_folder(sources_digest(ROOT / kernels for kernels in KERNELS))
     if folder is not None:
         numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]

@@ -5,7 +5,7 @@ from functools import lru_cache
 from os import PathLike
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import numpy as np
 
@@ -28,10 +28,6 @@ from febio_io.xplt.mesh import Mesh
 from febio_io.xplt.mesh_reader import read_mesh
 from febio_io.xplt.objects import ObjectState, read_object_states
 from febio_io.xplt.root import map_file, read_root
-
-if TYPE_CHECKING:
-    import pyvista as pv
-    import xarray as xr
 
 STATES_KEPT = 4
 KEEP_INFLATED = 512 << 20
@@ -277,27 +273,6 @@ class Plot:
         """
         data = self._open_state(find_state(self.path, self.n_states, state))
         return read_object_states(data.source, data.objects, self.mesh.objects) if data.objects else ()
-
-    def to_xarray(
-        self, *, variables: Iterable[str] | None = None, states: Iterable[int] | None = None
-    ) -> "xr.Dataset":
-        """Read variables and states into labelled arrays; see :func:`febio_io.views.arrays.to_xarray`."""
-        from febio_io.views.arrays import to_xarray
-
-        return to_xarray(self, variables=variables, states=states)
-
-    def to_pyvista(
-        self,
-        state: int = -1,
-        *,
-        surface: str | int | None = None,
-        edge: str | int | None = None,
-        deformed: bool = False,
-    ) -> "pv.UnstructuredGrid":
-        """Give one state as a mesh with its values; see :func:`febio_io.views.grids.to_pyvista`."""
-        from febio_io.views.grids import to_pyvista
-
-        return to_pyvista(self, state, surface=surface, edge=edge, deformed=deformed)
 
     def _view(
         self, name: str | Variable, state: int, region: str | int | None, section: SectionName | None

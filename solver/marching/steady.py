@@ -1,10 +1,8 @@
-"""Steady states: by marching with large implicit steps, and in closed form."""
+"""Steady states by marching with large implicit steps."""
 
 import numpy as np
-from scipy.optimize import brentq
 
-from cases.arrays import Floats
-from solver.errors import ModelError, NotSteady, RunFailure
+from solver.errors import NotSteady, RunFailure
 from solver.marching.choice import stepper_of
 from solver.marching.row_stepper import offsets
 from solver.model.boundary import NonReflectingOutlet, ResistanceOutlet
@@ -92,76 +90,3 @@ def _settled(model: Model, before: State, after: State, time_step: float) -> boo
         and flow_change <= 1e-12 * fastest + rest
         and load_change <= 1e-11 * np.max(np.abs(new)) + 1e-9
     )
-
-
-def rest_area(stiffness: Floats, inlet_pressure: float, radius: float, reference_pressure: float) -> Floats:
-    """Steady A(x, φ) of a pressure inlet and a non-reflecting outlet: Q = 0, P constant (2.2.63), m².
-
-    Parameters
-    ----------
-    stiffness : ndarray (n_x, n_phi)
-        β, Pa m; may jump.
-    inlet_pressure : float
-        Pa.
-    radius, reference_pressure : float
-        R₀, m, and P₀, Pa.
-    """
-    return np.asarray((radius + (inlet_pressure - reference_pressure) * radius**2 / stiffness) ** 2)
-
-
-def momentum_balance(
-    area: Floats | float, flow: float, inlet_area: float, stiffness: float, radius: float, density: float
-) -> Floats:
-    """Left side of (2.2.68) for γ = 2: β/(5ρA₀)(A^{5/2} − A_in^{5/2}) − (4/3)Q² ln(A/A_in), m⁶/s²·m⁻¹ × m."""
-    elastic = stiffness / (5 * density * radius**2) * (np.power(area, 2.5) - inlet_area**2.5)
-    return np.asarray(elastic - 4 / 3 * flow**2 * np.log(np.asarray(area) / inlet_area))
-
-
-def uniform_flow(model: Model, velocity: float) -> float:
-    """Steady Q = uR² of a velocity inlet and a per-row resistance outlet, uniform β, γ = 2 (2.2.69), m³/s.
-
-    The physiological root: the one next to A₀ v.
-
-    Raises
-    ------
-    ModelError
-        For another outlet, a nonlinear wall or a wall that varies.
-    """
-    outlet = model.outlet
-    if not (isinstance(outlet, ResistanceOutlet) and outlet.flow == "row") or model.wall_table is not None:
-        raise ModelError("the closed form needs a per-row resistance outlet and a linear wall")
-    beta = float(model.stiffness.flat[0])
-    if not np.allclose(model.stiffness, beta, rtol=1e-12):
-        raise ModelError("the closed form needs a uniform wall")
-    offset = float(offsets(model, [0.0])[0])
-
-    def defect(flow: float) -> float:
-        load = offset + outlet.resistance * flow - model.reference_pressure
-        outlet_area = (model.radius + load * model.radius**2 / beta) ** 2
-        balance = momentum_balance(outlet_area, flow, flow / velocity, beta, model.radius, model.density)
-        return float(balance + 8 * model.viscosity / model.density * flow * model.grid.length)
-
-    guess = velocity * model.radius**2
-    return float(brentq(defect, 0.2 * guess, 5 * guess, xtol=1e-30, rtol=1e-14))
-
-
-def uniform_area(model: Model, velocity: float, x: Floats) -> Floats:
-    """Steady A(x) that belongs to :func:`uniform_flow`, (2.2.68), m²."""
-    flow = uniform_flow(model, velocity)
-    inlet, beta = flow / velocity, float(model.stiffness.flat[0])
-
-    def area_at(position: float) -> float:
-        friction = 8 * model.viscosity / model.density * flow * position
-        return float(
-            brentq(
-                lambda area: float(
-                    momentum_balance(area, flow, inlet, beta, model.radius, model.density) + friction
-                ),
-                0.5 * inlet,
-                2 * inlet,
-                xtol=1e-30,
-                rtol=1e-14,
-            )
-        )
-
-    return np.array([area_at(float(position)) for position in np.atleast_1d(x)])

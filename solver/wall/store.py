@@ -1,18 +1,18 @@
 """Arrays that take long to compute, kept in the user's cache under what determines them."""
 
 import hashlib
-import os
-import tempfile
-import zipfile
+import warnings
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
 from cases.arrays import Floats
+from solver.kept import DamagedEntryError, KeptArrays
 from solver.kernel_cache import usable_folder
 
-MOST_ENTRIES = 256  # half a megabyte each on a grid of 120 x 48
+LIMIT = 128 * 1024**2  # bytes: half a megabyte each on a grid of 120 x 48
 
 
 def digest_of(parts: Iterable[str | Floats]) -> str:
@@ -44,59 +44,19 @@ def kept_array(
 
     Notes
     -----
-    An entry that is damaged, checked by its own digest, is computed again. The folder holds 256 entries at
-    most: those written first go.
+    An entry that is damaged is computed again, with a warning.
     """
     place = usable_folder("walls") if folder is None else folder
     if place is None:
         return compute()
-    path = place / f"{name}-{digest_of(parts)[:32]}.npz"
-    found = _read(path)
-    if found is None:
-        found = np.ascontiguousarray(compute(), dtype=float)
-        _write(path, found)
-    return found
-
-
-def _read(path: Path) -> Floats | None:
+    store, key = KeptArrays(place, LIMIT), f"{name}-{digest_of(parts)[:32]}"
     try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            values, stated = np.asarray(stored["values"], dtype=float), str(stored["digest"])
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
-        return None
-    return values if digest_of([values]) == stated else None
-
-
-def _write(path: Path, values: Floats) -> None:
-    """Write whole or not at all; a cache that cannot be written costs time only."""
-    try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.stem}.", suffix=".part", dir=path.parent)
-    except OSError:
-        return
-    partial = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            np.savez(stream, values=values, digest=np.array(digest_of([values])))
-        partial.replace(path)
-        _make_room(path.parent)
-    except OSError:
-        partial.unlink(missing_ok=True)
-    except BaseException:
-        partial.unlink(missing_ok=True)
-        raise
-
-
-def _make_room(folder: Path) -> None:
-    """Remove the entries written first where there are too many; other processes may do the same."""
-    entries = list(folder.glob("*.npz"))
-    if len(entries) > MOST_ENTRIES:
-        for path in sorted(entries, key=_written)[:-MOST_ENTRIES]:
-            path.unlink(missing_ok=True)
-
-
-def _written(path: Path) -> float:
-    """Time of writing; the past for an entry that another process just removed."""
-    try:
-        return path.stat().st_mtime
-    except FileNotFoundError:
-        return 0.0
+        found = store.get(key)
+        if found is not None:
+            return found["values"]
+    except DamagedEntryError as damage:
+        warnings.warn(f"{damage}; computed anew", stacklevel=2)
+    values = np.ascontiguousarray(compute(), dtype=float)
+    with suppress(OSError):  # a cache that cannot be written costs time only
+        store.put(key, {"values": values})
+    return values

@@ -11,6 +11,7 @@ from numpy.testing import assert_array_equal
 from xplt_samples import ITEMS, MESH, rich_file, sample_file, sample_sections, state_values
 from xplt_writer import DomainOf, FacesOf, Item, MeshOf, Writer, compressed
 
+from febio_io import to_xarray
 from febio_io.errors import FebioError, FebioFileError, FebioFormatError
 from febio_io.xplt import open_plot
 from febio_io.xplt.mesh import first_appearances
@@ -29,7 +30,7 @@ def read_everything(path):
             for variable in plot.variables:
                 for region in plot.regions(variable, state):
                     plot.field(variable, state, region)
-        plot.to_xarray()
+        to_xarray(plot)
         return plot.n_states
 
 

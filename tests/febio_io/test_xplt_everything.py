@@ -10,6 +10,7 @@ from numpy.testing import assert_array_equal
 from xplt_writer import DomainOf, FacesOf, Item, MeshOf, Writer, compressed
 
 import febio_io.views.meshio_format  # noqa: F401 - registers the format
+from febio_io import to_pyvista, to_xarray
 from febio_io.views.export import export_plot
 from febio_io.xplt import ELEMENT_TYPES, open_plot
 from febio_io.xplt.summary import summarize, summary_lines
@@ -153,13 +154,13 @@ def test_all_of_it_is_read(everything):
 
 def test_all_of_it_is_shown(everything):
     with open_plot(everything[0]) as plot:
-        grid = plot.to_pyvista(1, deformed=True)
+        grid = to_pyvista(plot, 1, deformed=True)
         assert (grid.n_cells, grid.n_points) == (2 * len(ELEMENT_TYPES), N_NODES)
         for number, faces in ((1, len(FACES)), (2, 0), (3, 1)):
-            assert plot.to_pyvista(1, surface=number).n_cells == faces
-        assert plot.to_pyvista(1, edge="Rim").n_cells == 2
-        assert plot.to_xarray(states=[0, 1]).sizes["element"] == 2 * len(ELEMENT_TYPES)
-        assert plot.to_xarray(states=[2]).sizes["element"] == 1
+            assert to_pyvista(plot, 1, surface=number).n_cells == faces
+        assert to_pyvista(plot, 1, edge="Rim").n_cells == 2
+        assert to_xarray(plot, states=[0, 1]).sizes["element"] == 2 * len(ELEMENT_TYPES)
+        assert to_xarray(plot, states=[2]).sizes["element"] == 1
     assert meshio.read(everything[0]).points.shape == (8, 3)
 
 

@@ -13,6 +13,7 @@ from xplt_samples import ITEMS, MESH, SMALL_MESH, sample_file, sample_sections, 
 from xplt_writer import DomainOf, FacesOf, Item, MeshOf, Writer
 
 import febio_io.views.meshio_format  # noqa: F401 - registers the format
+from febio_io import to_pyvista, to_xarray
 from febio_io.errors import FebioError, FebioFileError, FebioFormatError, FebioKeyError
 from febio_io.views.pyvista_reader import PlotReader
 from febio_io.xplt import ELEMENT_TYPES, open_plot
@@ -41,7 +42,7 @@ def plot_of(write):
 
 def test_arrays_have_states_first_and_components_last(write):
     with open_plot(write(sample_file())) as plot:
-        data = plot.to_xarray()
+        data = to_xarray(plot)
         assert data["displacement"].dims == ("time", "node", "axis")
         for state in range(3):
             assert_array_equal(data["displacement"][state], plot.field("displacement", state))
@@ -52,11 +53,11 @@ def test_arrays_have_states_first_and_components_last(write):
         assert_array_equal(data["time"], plot.times)
         assert data["active"].all()
         assert data["displacement"].attrs["unit"] == "L"
-        part = plot.to_xarray(variables=["pressure"], states=[-1, 0])
+        part = to_xarray(plot, variables=["pressure"], states=[-1, 0])
         assert set(part.data_vars) == {"pressure", "active"}
         assert part["state"].values.tolist() == [2, 0]
         with pytest.raises(FebioKeyError, match="no variable 'presure'; the file has 'pressure'"):
-            plot.to_xarray(variables=["presure"])
+            to_xarray(plot, variables=["presure"])
 
 
 @pytest.mark.parametrize(
@@ -85,7 +86,7 @@ def test_arrays_have_the_axes_of_their_storage(plot_of, section, storage, value_
     values = 1 + np.arange(np.prod(rows + components, dtype=int)).reshape(rows + components)
     region = 0 if section == "global" else 1
     plot = plot_of([Item(section, "q", value_type, storage)], {(section, 1): {region: values}})
-    array = plot.to_xarray()["q"]
+    array = to_xarray(plot)["q"]
     assert array.dims == ("time", *dims)
     whole = array.values[0]
     assert_array_equal(whole[~np.isnan(whole)], values.ravel())
@@ -93,7 +94,7 @@ def test_arrays_have_the_axes_of_their_storage(plot_of, section, storage, value_
 
 def test_nodes_of_domains_are_told_apart(plot_of):
     values = {1: np.arange(12), 2: np.arange(4) + 100}
-    data = plot_of([Item("domain", "p", "float", "node")], {("domain", 1): values}).to_xarray()
+    data = to_xarray(plot_of([Item("domain", "p", "float", "node")], {("domain", 1): values}))
     assert_array_equal(data["p"][0, 12:16], [100, 101, 102, 103])
     assert_array_equal(data["domain_node_domain"], [1] * 12 + [2] * 4 + [3] * 4)
     assert_array_equal(data["domain_node_id"][12:16], [4, 3, 2, 1])
@@ -102,32 +103,32 @@ def test_nodes_of_domains_are_told_apart(plot_of):
 def test_variables_of_one_name_are_one_where_they_agree(plot_of):
     items = [Item("surface", "flow", "float", "region")] * 2
     data = {("surface", 1): {1: np.array(1.0)}, ("surface", 2): {2: np.array(2.0)}}
-    assert_array_equal(plot_of(items, data).to_xarray()["flow"], [[1, 2]])
+    assert_array_equal(to_xarray(plot_of(items, data))["flow"], [[1, 2]])
     data["surface", 2] = {1: np.array(1.0), 2: np.array(3.0)}
-    assert_array_equal(plot_of(items, data).to_xarray()["flow"], [[1, 3]])
+    assert_array_equal(to_xarray(plot_of(items, data))["flow"], [[1, 3]])
     data["surface", 2] = {1: np.array(7.0)}
     with pytest.raises(FebioFormatError, match="two variables 'flow' have different values in surface"):
-        plot_of(items, data).to_xarray()
+        to_xarray(plot_of(items, data))
 
 
 def test_names_that_are_taken_have_a_count_added(plot_of):
     items = [Item("node", "x", "float", "node"), Item("domain", "x"), Item("domain", "time")]
     data = {("node", 1): {0: np.zeros(12)}, ("domain", 1): {1: np.zeros(2)}}
-    assert list(plot_of(items, data).to_xarray().data_vars) == ["x (2)", "x (3)", "time (2)", "active"]
+    assert list(to_xarray(plot_of(items, data)).data_vars) == ["x (2)", "x (3)", "time (2)", "active"]
 
 
 def test_states_of_different_meshes_are_not_mixed(write):
     later = [WRITER.mesh(SMALL_MESH), WRITER.state(3, {("node", 1): {0: np.ones((8, 3))}})]
     with open_plot(write(WRITER.file(*sample_sections(), *later))) as plot:
         with pytest.raises(FebioKeyError, match="states 0 and 3 have different meshes"):
-            plot.to_xarray()
-        assert plot.to_xarray(states=[3]).sizes["node"] == 8
-        assert plot.to_pyvista(3).n_points == 8
+            to_xarray(plot)
+        assert to_xarray(plot, states=[3]).sizes["node"] == 8
+        assert to_pyvista(plot, 3).n_points == 8
 
 
 def test_a_grid_has_the_mesh_and_the_values(write):
     with open_plot(write(sample_file())) as plot:
-        grid = plot.to_pyvista(1)
+        grid = to_pyvista(plot, 1)
         assert_array_equal(grid.points, MESH.coordinates)
         assert grid.celltypes.tolist() == [12, 12, 9, 5, 5]
         assert grid.get_cell(1).point_ids == list(range(4, 12))
@@ -136,8 +137,8 @@ def test_a_grid_has_the_mesh_and_the_values(write):
         assert_array_equal(grid.cell_data["element_id"], [11, 12, 21, 31, 32])
         assert_array_equal(grid.cell_data["part_id"], [1, 1, 2, 2, 2])
         assert grid.field_data["TimeValue"][0] == plot.times[1]
-        assert plot.to_pyvista().field_data["state"][0] == 2
-        moved = plot.to_pyvista(1, deformed=True)
+        assert to_pyvista(plot).field_data["state"][0] == 2
+        moved = to_pyvista(plot, 1, deformed=True)
         assert_allclose(moved.points, MESH.coordinates + state_values(1)["node", 1][0])
         array = grid.point_data.VTKObject.GetAbstractArray("displacement")
         assert [array.GetComponentName(place) for place in range(3)] == ["x", "y", "z"]
@@ -145,7 +146,7 @@ def test_a_grid_has_the_mesh_and_the_values(write):
 
 def test_deforming_needs_a_displacement(plot_of):
     with pytest.raises(FebioKeyError, match="no displacement"):
-        plot_of([ITEMS[1]], {}).to_pyvista(deformed=True)
+        to_pyvista(plot_of([ITEMS[1]], {}), deformed=True)
 
 
 def test_grids_of_other_storages(plot_of):
@@ -163,7 +164,7 @@ def test_grids_of_other_storages(plot_of):
         ("domain", 4): {2: np.arange(4)},
         ("global", 1): {0: np.array(2.5)},
     }
-    grid = plot_of(items, data).to_pyvista(0)
+    grid = to_pyvista(plot_of(items, data), 0)
     assert_array_equal(grid.cell_data["one"], [5, 5, np.nan, 7, 7])
     assert grid.cell_data["corner"].shape == (5, 24)
     assert_array_equal(grid.cell_data["corner"][1], np.arange(24, 48))
@@ -189,7 +190,7 @@ def test_surfaces_and_edges_are_grids_of_their_own(plot_of):
         ("edge", 1): {1: np.array([4.0, 5.0])},
     }
     plot = plot_of(items, data)
-    surface = plot.to_pyvista(0, surface="Mixed")
+    surface = to_pyvista(plot, 0, surface="Mixed")
     assert surface.celltypes.tolist() == [5, 9]
     assert_array_equal(surface.point_data["node_id"], np.array([8, 9, 10, 3, 2, 1, 0]) + 1)
     assert_array_equal(surface.points, MESH.coordinates[[8, 9, 10, 3, 2, 1, 0]])
@@ -197,19 +198,19 @@ def test_surfaces_and_edges_are_grids_of_their_own(plot_of):
     assert_allclose(surface.cell_data["gap"], [0.1, 0.2])
     assert_array_equal(surface.cell_data["force"], [[1, 2, 3], [1, 2, 3]])
     assert_array_equal(surface.point_data["normal"], np.arange(7))
-    edge = plot.to_pyvista(0, edge=1)
+    edge = to_pyvista(plot, 0, edge=1)
     assert edge.celltypes.tolist() == [3, 21]
     assert_array_equal(edge.cell_data["line load"], [4, 5])
-    assert plot.to_pyvista(0, surface="Empty").n_cells == 0
+    assert to_pyvista(plot, 0, surface="Empty").n_cells == 0
     with pytest.raises(FebioKeyError, match="no values in region 'Mixd'; it has some in 1"):
-        plot.to_pyvista(0, surface="Mixd")
+        to_pyvista(plot, 0, surface="Mixd")
 
 
 def test_faces_that_vtk_does_not_know_are_refused(write):
     mesh = MeshOf(MESH.coordinates, [DomainOf(0, [[1, *range(8)]])], [FacesOf("Odd", [[0, 1, 2, 3, 4]], 5)])
     content = WRITER.file(WRITER.root(), WRITER.mesh(mesh), WRITER.state(0))
     with open_plot(write(content)) as plot, pytest.raises(FebioFormatError, match=r"'Odd' has .* of 5 nodes"):
-        plot.to_pyvista(0, surface="Odd")
+        to_pyvista(plot, 0, surface="Odd")
 
 
 @pytest.mark.parametrize("code", ELEMENT_TYPES)
@@ -217,14 +218,14 @@ def test_every_element_type_is_shown(write, code):
     n_nodes = ELEMENT_TYPES[code].nodes
     mesh = MeshOf(np.zeros((n_nodes, 3)), [DomainOf(code, [[5, *range(n_nodes)]])])
     with open_plot(write(WRITER.file(WRITER.root(), WRITER.mesh(mesh), WRITER.state(0)))) as plot:
-        grid = plot.to_pyvista()
+        grid = to_pyvista(plot)
     assert grid.celltypes.tolist() == [ELEMENT_TYPES[code].vtk_type]
     assert grid.get_cell(0).point_ids == list(ELEMENT_TYPES[code].vtk_order)
 
 
 def test_volumes_of_real_meshes_are_those_of_the_tube(reference_folder):
     with open_plot(reference_folder / "none.xplt") as plot:
-        grid = plot.to_pyvista(0)
+        grid = to_pyvista(plot, 0)
     volumes = grid.compute_cell_sizes(length=False, area=False).cell_data["Volume"]
     assert (volumes > 0).all()
     outer = np.linalg.norm(grid.points[:, :2], axis=1).max()
@@ -277,16 +278,16 @@ def test_meshio_reads_plot_files(write):
 def test_every_corpus_file_has_all_views(shared_data):
     for path in sorted((shared_data / "xplt_corpus").glob("*.xplt")):
         with open_plot(path) as plot:
-            data = plot.to_xarray()
+            data = to_xarray(plot)
             assert data.sizes["time"] == plot.n_states
-            assert plot.to_pyvista().n_cells == plot.mesh.n_elements
+            assert to_pyvista(plot).n_cells == plot.mesh.n_elements
             for surface in plot.mesh.surfaces:
-                assert plot.to_pyvista(surface=surface.region).n_cells == surface.n_items
+                assert to_pyvista(plot, surface=surface.region).n_cells == surface.n_items
 
 
 def test_views_of_damaged_values_raise_errors_of_the_family(write):
     content = file_of([ITEMS[1]], {("domain", 1): {1: np.zeros(3)}})
     with open_plot(write(content)) as plot:
-        for view in (plot.to_xarray, plot.to_pyvista):
+        for view in (to_xarray, to_pyvista):
             with pytest.raises(FebioError, match="12 bytes where shape"):
-                view()
+                view(plot)

@@ -11,6 +11,7 @@ import numpy as np
 from febio_io.xplt.tags import MAGIC, Tag
 
 GARBAGE = 0x7FAB0001
+HDR_COMPRESSION = 0x01010004  # FEBio writes it; each section tells by itself
 TYPE_CODES = {
     "float": 0,
     "vec3f": 1,
@@ -113,7 +114,7 @@ class Writer:
         software: str | None = "Writer of tests",
         units: str | None = None,
     ) -> bytes:
-        header = self.integer(Tag.HDR_VERSION, version) + self.integer(Tag.HDR_COMPRESSION, compression)
+        header = self.integer(Tag.HDR_VERSION, version) + self.integer(HDR_COMPRESSION, compression)
         if software is not None:
             header += self.counted(Tag.HDR_SOFTWARE, software)
         if units is not None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from closed_forms import continuity_exponent
 from thesis_artery import DENSITY, DIASTOLE, LENGTH, PATTERNS, SECTION_OUTLET, VISCOSITY, artery
 
 import solver.__main__ as command
@@ -14,7 +15,6 @@ from solver.marching.semi_implicit import simulate
 from solver.marching.steady import steady_state
 from solver.model.diagnostics import Columns, Limits, Monitor, last_interval_weights, wall_state
 from solver.model.parameters import uniform_state
-from solver.model.profiles import continuity_exponent
 from solver.schemes.rows.balance import closed_exponents
 from solver.wall.sections import linear_section_wall
 from solver.wall.table import MasterCurve, wall_table

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from closed_forms import uniform_area, uniform_flow
 from scipy.integrate import solve_ivp
 from thesis_artery import DENSITY, DIASTOLE, HEALTHY, LENGTH, RADIUS, STEADY_OUTLET, VISCOSITY, artery
 
 from solver.errors import ModelError
-from solver.marching.steady import steady_state, uniform_area, uniform_flow
+from solver.marching.steady import steady_state
 from solver.wall.stiffness import pressure_from_area
 
 EXPONENTS = pytest.mark.parametrize("exponent", [0.5, 1.0, 2.0, 9.0, 50.0])

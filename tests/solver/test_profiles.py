@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from closed_forms import axis_velocity, continuity_exponent, momentum_correction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from solver.model.profiles import axis_ratio, axis_velocity, continuity_exponent, momentum_correction, shape
+from solver.model.profiles import axis_ratio, shape
 
 exponents = st.floats(0.2, 40.0)
 REST = 1e-9

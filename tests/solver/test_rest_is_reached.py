@@ -6,10 +6,11 @@ velocity on the axis.
 
 import numpy as np
 import pytest
+from closed_forms import rest_area
 from thesis_artery import PATTERNS, RADIUS, artery
 
 from solver.marching.row_stepper import Stepper
-from solver.marching.steady import rest_area, steady_state
+from solver.marching.steady import steady_state
 from solver.model.boundary import Inlet, NonReflectingOutlet
 from solver.model.parameters import uniform_state
 from solver.model.waveform import constant

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from closed_forms import continuity_exponent, momentum_correction
 
-from solver.model.profiles import continuity_exponent, momentum_correction
 from solver.schemes.layout import FLOW_INLET, NO_ADMISSIBLE_PROFILE, OK, PRESSURE_INLET, VELOCITY_INLET
 from solver.schemes.rows.ends import face_areas
 from solver.schemes.rows.profile import closure_sources, fixed_sources

@@ -15,12 +15,13 @@ from tube_plot import write_tube
 from tubes import Tube
 
 from cases.reading.case_file import load_case_file
+from solver.kept import ABANDONED
 from validation.compare import command as compare
 from validation.errors import ValidationError
 from validation.mapping.rays import rays
 from validation.reference.alignment import align
 from validation.runs import cached as cached_runs
-from validation.runs.cache import ABANDONED, Cache, Entry, open_cache
+from validation.runs.cache import Cache, Entry, open_cache
 from validation.runs.cached import canonical, reference_key, rom_key
 
 GENEROUS = ("radius", "rms_error", "50 %")
@@ -189,7 +190,7 @@ class TestKeys:
 
     def test_code_matters(self, tmp_path, made, monkeypatch):
         before = self.keys(made(), tmp_path)
-        monkeypatch.setattr(cached_runs, "code_digest", lambda: "other code")
+        monkeypatch.setattr(cached_runs, "code_digest", lambda kind: "other code")
         assert not set(before) & set(self.keys(made(), tmp_path))
 
     def test_floats_count_with_all_their_digits(self):

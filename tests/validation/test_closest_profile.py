@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
+from closest import closest_profile
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import minimize_scalar
-
-from validation.mapping.profiles import closest_profile
 
 Y = np.linspace(0.0, 1.0, 25)
 EXPONENTS = st.floats(0.3, 50.0)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from closest import closest_profile
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
@@ -9,7 +10,7 @@ from tubes import Tube
 
 from validation.mapping.meshed_profiles import closest_meshed_profile, meshed_shapes
 from validation.mapping.nodal_shares import TwoRings, nodal_shares, two_rings
-from validation.mapping.profiles import closest_profile, errors_of
+from validation.mapping.profiles import errors_of
 
 Y = np.linspace(0.0, 1.0, 25)
 NODES = np.linspace(0.0, 1.0, 9)

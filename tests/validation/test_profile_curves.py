@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from closest import closest_profile
 from comparisons import CELLS, PERIOD, TIMES, two_models
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from validation.mapping.profiles import closest_profile, errors_at
+from validation.mapping.profiles import errors_at
 from validation.metrics.profile_curves import EXPONENTS, error_curves, profile_rows
 
 Y = np.linspace(0.0, 1.0, 25)

@@ -76,7 +76,7 @@ def test_finished_entries_are_kept(counted, tmp_path):
 
 def test_other_sources_compute_anew(counted, tmp_path, monkeypatch):
     tables.main(["--output", str(tmp_path)])
-    monkeypatch.setattr(store, "sources_digest", lambda: "other")
+    monkeypatch.setattr(store, "code_digest", lambda kind: "other")
     tables.main(["--output", str(tmp_path)])
     assert counted == {"slow one": 2, "quick one": 2}
 
@@ -134,7 +134,7 @@ def test_failed_run_exits_1_and_names_itself(monkeypatch, tmp_path, capsys):
 def test_json_names_sources_and_rows(counted, tmp_path):
     tables.main(["--output", str(tmp_path)])
     content = json.loads((tmp_path / "tables.json").read_text(encoding="utf-8"))
-    assert content["sources"] == store.sources_digest()
+    assert content["sources"] == store.code_digest("tables")
     assert [row["case"] for row in content["experiments"]["a"]] == ["quick one", "slow one"]
     assert set(content["cpu_s"]) == {"quick one", "slow one"}
 

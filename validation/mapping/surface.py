@@ -56,11 +56,6 @@ def area_across_axis(points: Floats, faces: Integers) -> float:
     return abs(_axial_area(points, faces))
 
 
-def enclosed_volume(points: Floats, faces: Integers) -> float:
-    """Volume inside a closed surface whose normals point outwards, ⅓∮ x · n dS, m³."""
-    return float(flux(points, faces, points) / 3.0)
-
-
 def _axial_area(points: Floats, faces: Integers) -> float:
     along = np.zeros_like(points)
     along[:, 0] = 1.0

@@ -1,15 +1,7 @@
-"""Results of long computations, kept on disk under a digest of what determines them.
-
-An entry is one file, written whole or not at all, so that several processes may share the folder. Its
-checksums (those of the zip format) tell a damaged one. Entries used longest ago go when the folder exceeds
-its limit.
-"""
+"""Results of long computations in the user's cache: labelled arrays, and what is to be said of them."""
 
 import json
 import os
-import time
-import zipfile
-import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,16 +9,15 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
+from solver.kept import DamagedEntryError, KeptArrays
 from solver.kernel_cache import cache_folders
 from validation.errors import ValidationError
 
 FOLDER_VARIABLE = "ARTERIAL_ROM_CACHE"  # environment: the folder to use instead
 LIMIT = 2 * 1024**3  # bytes
-ABANDONED = 24 * 3600.0  # s after which an unfinished file belongs to a process that has died
 HEADER = "header"
-
-DAMAGED = (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile, zlib.error)
 
 
 @dataclass(frozen=True)
@@ -63,8 +54,9 @@ class Cache:
     limit: int = LIMIT
     fresh: bool = False
 
-    def _path(self, key: str) -> Path:
-        return self.folder / f"{key}.npz"
+    @property
+    def _store(self) -> KeptArrays:
+        return KeptArrays(self.folder, self.limit)
 
     def get(self, key: str) -> Entry | None:
         """Return the entry under a key, or None if there is none.
@@ -74,18 +66,11 @@ class Cache:
         ValidationError
             If there is one, but damaged; it is removed.
         """
-        path = self._path(key)
-        if self.fresh or not path.exists():
-            return None
         try:
-            entry = _read(path)
-            os.utime(path)
-        except FileNotFoundError:  # another process made room
-            return None
-        except DAMAGED as error:
-            path.unlink(missing_ok=True)
-            raise ValidationError(f"{path} was damaged ({error})") from error
-        return entry
+            arrays = None if self.fresh else self._store.get(key)
+        except DamagedEntryError as damage:
+            raise ValidationError(str(damage)) from damage
+        return None if arrays is None else _entry(arrays)
 
     def put(self, key: str, entry: Entry) -> None:
         """Keep an entry, and make room for it.
@@ -95,43 +80,10 @@ class Cache:
         ValidationError
             If it cannot be written.
         """
-        path = self._path(key)
-        partial = path.with_name(f".{key}.{os.getpid()}.{time.monotonic_ns()}.part")
         try:
-            _write(partial, entry)
-            partial.replace(path)
-            self._make_room()
+            self._store.put(key, _arrays(entry))
         except OSError as error:
             raise ValidationError(f"{self.folder}: cannot be written: {error.strerror or error}") from error
-        finally:
-            partial.unlink(missing_ok=True)
-
-    def _make_room(self) -> None:
-        """Remove what processes left unfinished, then the entries used longest ago."""
-        for path in self.folder.glob(".*.part"):
-            if _last_use(path) < time.time() - ABANDONED:
-                path.unlink(missing_ok=True)
-        entries = sorted(self.folder.glob("*.npz"), key=_last_use, reverse=True)
-        total = 0
-        for path in entries:
-            total += _size(path)
-            if total > self.limit:
-                path.unlink(missing_ok=True)
-
-
-def _last_use(path: Path) -> float:
-    """Time of last use; now for a file that another process just removed."""
-    try:
-        return path.stat().st_mtime
-    except FileNotFoundError:
-        return time.time()
-
-
-def _size(path: Path) -> int:
-    try:
-        return path.stat().st_size
-    except FileNotFoundError:
-        return 0
 
 
 def open_cache(fresh: bool = False) -> Cache | None:
@@ -158,8 +110,9 @@ def _described(variable: xr.DataArray) -> dict[str, Any]:
     return {"dims": list(map(str, variable.dims)), "attrs": variable.attrs}
 
 
-def _write(path: Path, entry: Entry) -> None:
-    arrays: dict[str, np.ndarray] = {}
+def _arrays(entry: Entry) -> dict[str, NDArray[Any]]:
+    """Arrays of an entry by name, with a header that tells what they are."""
+    arrays: dict[str, NDArray[Any]] = {}
     layout: dict[str, Any] = {}
     for name, dataset in entry.datasets.items():
         layout[name] = {
@@ -167,19 +120,16 @@ def _write(path: Path, entry: Entry) -> None:
             "data_vars": {str(n): _described(v) for n, v in dataset.data_vars.items()},
         }
         arrays |= {f"{name}/{n}": v.to_numpy() for n, v in dataset.variables.items()}
-    header = json.dumps({"layout": layout, "facts": entry.facts})
-    with path.open("wb") as stream:
-        np.savez(stream, allow_pickle=False, **{HEADER: np.array(header)}, **arrays)
+    return {HEADER: np.array(json.dumps({"layout": layout, "facts": entry.facts}))} | arrays
 
 
-def _read(path: Path) -> Entry:
-    with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-        header = json.loads(str(stored[HEADER]))
-        datasets = {name: _dataset(name, parts, stored) for name, parts in header["layout"].items()}
+def _entry(arrays: Mapping[str, NDArray[Any]]) -> Entry:
+    header = json.loads(str(arrays[HEADER]))
+    datasets = {name: _dataset(name, parts, arrays) for name, parts in header["layout"].items()}
     return Entry(datasets, header["facts"])
 
 
-def _dataset(name: str, parts: Mapping[str, Any], stored: Mapping[str, np.ndarray]) -> xr.Dataset:
+def _dataset(name: str, parts: Mapping[str, Any], stored: Mapping[str, NDArray[Any]]) -> xr.Dataset:
     variables = {
         kind: {
             n: (tuple(about["dims"]), stored[f"{name}/{n}"], about["attrs"])

@@ -5,8 +5,6 @@ import json
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
-from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -21,22 +19,10 @@ from validation.reference.kind import Progress, Reference, ReferenceKind
 from validation.runs.cache import Cache, Entry
 from validation.runs.provenance import checksum, shown_path
 from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
-
-PACKAGES = ("cases", "solver", "febio_io", "validation")
-LIBRARIES = ("numba", "numpy", "scipy", "vtk")
+from validation.runs.sources import Kind, code_digest
 
 T = TypeVar("T", ReducedModelRun, Reference)
 Remark = Callable[[str], None]
-
-
-@cache
-def code_digest() -> str:
-    """Digest of all code that results depend on, and of the libraries' versions."""
-    digest = hashlib.sha256(json.dumps({name: version(name) for name in LIBRARIES}).encode())
-    root = Path(__file__).parents[2]
-    for path in sorted(path for package in PACKAGES for path in (root / package).rglob("*.py")):
-        digest.update(str(path.relative_to(root)).encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()
 
 
 def canonical(value: Any) -> Any:
@@ -66,9 +52,9 @@ def canonical(value: Any) -> Any:
     raise TypeError(f"{type(value).__name__} has no canonical form")
 
 
-def key_of(what: str, parts: Mapping[str, Any]) -> str:
+def key_of(kind: Kind, parts: Mapping[str, Any]) -> str:
     """Digest of what determines a result: code, libraries, parts of the case, contents of files."""
-    stated = {"what": what, "code": code_digest(), "parts": canonical(parts)}
+    stated = {"kind": kind, "code": code_digest(kind), "parts": canonical(parts)}
     return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
 
 

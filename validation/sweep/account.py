@@ -1,13 +1,11 @@
 """study.json: what a sweep is, how far it is, and what its indices say."""
 
-import hashlib
-import json
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
 from cases.results.sweep import DrawnDesign, SampleCounts, SobolIndex, State, SweepAccount
-from validation.runs.cached import canonical, code_digest
+from validation.runs.cached import key_of
 from validation.runs.output import write_json, write_text
 from validation.runs.provenance import git_commit, installed, shown_path
 from validation.sweep import outputs, parameters
@@ -28,8 +26,7 @@ def digest_of(study: Study, chunks: Sequence[range]) -> str:
         "outputs": [output.name for output in study.outputs],
         "chunks": [[chunk.start, chunk.stop] for chunk in chunks],
     }
-    stated = {"code": code_digest(), "parts": canonical(parts)}
-    return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
+    return key_of("sweep", parts)
 
 
 def account_of(study: Study, digest: str, total: int, chunk: int) -> SweepAccount:

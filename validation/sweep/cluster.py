@@ -9,7 +9,7 @@ import dask
 from distributed import Client, LocalCluster
 
 from validation.errors import ValidationError
-from validation.runs.cached import code_digest
+from validation.runs.sources import code_digest
 
 PROCESSES, THREADS = "processes", "threads"
 CONNECT_WITHIN = "10s"
@@ -89,12 +89,12 @@ def _check_workers(client: Client, address: str, tell: Callable[[str], None]) ->
     if not client.scheduler_info()["workers"]:
         tell(f"{address}: waiting for a worker")
     client.wait_for_workers(1)
-    for worker, found in client.run(code_digest, on_error="return").items():
+    for worker, found in client.run(code_digest, "sweep", on_error="return").items():
         if isinstance(found, BaseException):
             raise ValidationError(
                 f"{address}: worker {worker} cannot run samples: {type(found).__name__}: {found}"
             )
-        if found != code_digest():
+        if found != code_digest("sweep"):
             raise ValidationError(
                 f"{address}: worker {worker} has another version of this program or of its libraries"
             )

@@ -13,8 +13,8 @@ from rich.console import Console
 from rich.table import Table
 
 from validation.runs.output import write_text
+from validation.runs.sources import code_digest
 from validation.tables.experiment import Check, Experiment
-from validation.tables.store import sources_digest
 
 COLUMNS = ("case", "quantity", "unit", "ours", "thesis", "relative_difference", "low", "high", "met")
 
@@ -75,7 +75,7 @@ def write_csv(path: Path, rows: list[Check]) -> None:
 def write_json(path: Path, rows: dict[str, list[Check]], cpu: dict[str, float]) -> None:
     """Write all rows, what computed them, and the CPU seconds of each entry."""
     content = {
-        "sources": sources_digest(),
+        "sources": code_digest("tables"),
         "python": platform.python_version(),
         "numba": numba.__version__,
         "numpy": np.__version__,

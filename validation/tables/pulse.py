@@ -22,7 +22,6 @@ from validation.tables.simple_wave import area_error
 PRESSURE, DURATION = 1e4, 0.3e-3  # Pa, s
 TIMES = {"3.1": 0.46e-3, "3.2": 1.3e-3}  # s
 REFINEMENTS = tuple(range(7))
-FINEST = REFINEMENTS[-1]
 QUICK = 3  # refinements
 METHODS = {"upwind": "upwind", "lax_wendroff": "Lax–Wendroff", "van_leer": "high-resolution"}
 ORDER_SIZES = (480, 960)

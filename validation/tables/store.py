@@ -1,33 +1,11 @@
 """Results kept on disk as they finish, one small file per entry, valid for the sources that made them."""
 
-import hashlib
 import json
 from pathlib import Path
 
 from validation.runs.output import write_text
+from validation.runs.sources import code_digest
 from validation.tables.experiment import Result
-
-ROOT = Path(__file__).parents[2]
-SOURCES = (
-    "solver/godunov*.py",
-    "solver/smooth_wall.py",
-    "solver/calcification.py",
-    "solver/grid.py",
-    "solver/waveform.py",
-    "solver/schemes/godunov*.py",
-    "solver/schemes/continuity.py",
-    "validation/thesis_tables/*.py",
-    "reference_data/waveforms/thesis_inlet.csv",
-)
-
-
-def sources_digest() -> str:
-    """Digest of everything that results depend on."""
-    digest = hashlib.sha256()
-    for pattern in SOURCES:
-        for path in sorted(ROOT.glob(pattern)):
-            digest.update(path.name.encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 class Store:
@@ -42,7 +20,7 @@ class Store:
     def __init__(self, folder: Path) -> None:
         self._folder = folder / "entries"
         self._folder.mkdir(exist_ok=True)
-        self._digest = sources_digest()
+        self._digest = code_digest("tables")
 
     def _path(self, name: str) -> Path:
         return self._folder / f"{name.replace(' ', '_').replace('=', '_')}.json"

@@ -1,0 +1,81 @@
+"""Sources that determine each kind of result: an edit of any other keeps what is in the cache."""
+
+from functools import cache
+from typing import Literal
+
+from solver.sources import ROOT, sources_digest
+
+Kind = Literal["reduced model", "reference", "sweep", "tables"]
+
+LIBRARIES = ("numba", "numpy", "scipy", "xarray")
+
+CASE = ("cases/arrays.py", "cases/errors.py", "cases/fields.py", "cases/sections", "cases/values")
+SOLVER = (
+    "solver/errors.py",
+    "solver/geometry",
+    "solver/kept.py",
+    "solver/kernel_cache.py",
+    "solver/marching",
+    "solver/model",
+    "solver/schemes",
+    "solver/sources.py",
+    "solver/wall",
+)
+CELLS = (
+    "validation/__init__.py",
+    "validation/errors.py",
+    "validation/mapping",
+    "validation/reference/alignment.py",
+    "validation/reference/kind.py",
+    "validation/runs/cache.py",
+    "validation/runs/cached.py",
+)
+REDUCED_MODEL = (
+    *CASE,
+    *SOLVER,
+    *CELLS,
+    "solver/case",
+    "solver/runs/result.py",
+    "validation/runs/reduced_model.py",
+)
+REFERENCE = (
+    *CASE,
+    *SOLVER,
+    *CELLS,
+    "solver/case",
+    "febio_io/errors.py",
+    "febio_io/files.py",
+    "febio_io/text",
+    "febio_io/xplt",
+    "validation/reference",
+    "validation/runs/provenance.py",
+)
+DETERMINANTS: dict[Kind, tuple[str, ...]] = {
+    "reduced model": REDUCED_MODEL,
+    "reference": REFERENCE,
+    "sweep": (
+        *REDUCED_MODEL,
+        *REFERENCE,
+        "cases/reading",
+        "solver/runs/batch.py",
+        "validation/ablation/ladder.py",
+        "validation/metrics",
+        "validation/runs/sources.py",
+        "validation/sweep",
+    ),
+    "tables": (
+        *SOLVER,
+        "cases/arrays.py",
+        "reference_data/waveforms/thesis_inlet.csv",
+        "validation/__init__.py",
+        "validation/tables",
+    ),
+}
+
+
+@cache
+def code_digest(kind: Kind) -> str:
+    """Digest of the code that determines one kind of result, and of the libraries' versions."""
+    libraries = (*LIBRARIES, "pyvista", "vtk") if kind in ("reference", "sweep") else LIBRARIES
+    sources = dict.fromkeys(DETERMINANTS[kind])
+    return sources_digest((ROOT / source for source in sources), libraries)
