@@ -2,7 +2,7 @@
 
 import sys
 
-from febio_io.interrupts import run_command
+from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(run_command("febio_io.feb.command"))
+    sys.exit(run("febio_io.feb.command"))

@@ -13,8 +13,8 @@ import pytest
 import synthetic_sweep as synthetic
 
 from reports import ReportError
-from reports.__main__ import main
 from reports.blocks import Table
+from reports.command import main
 from reports.sweep import write_sweep_page
 from reports.sweep.account import headline
 from reports.sweep.build import sweep_report

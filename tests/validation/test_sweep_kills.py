@@ -14,9 +14,9 @@ from pandas.testing import assert_frame_equal
 from small_case import ROOT
 from small_sweep import records, small_study, study_file, swept
 
-from validation.sweep.__main__ import main
 from validation.sweep.chunk import Plan
 from validation.sweep.cluster import SETTINGS, connected
+from validation.sweep.command import main
 from validation.sweep.samples import Sample
 from validation.sweep.stream import computed
 

@@ -2,7 +2,7 @@
 
 import sys
 
-from validation.ablation.command import main
+from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run("validation.ablation.command"))

@@ -8,7 +8,7 @@ from validation.errors import ValidationError
 
 def load_reports() -> None:
     """Load the package that draws, with Matplotlib and all it needs: about a second."""
-    import_module("reports")
+    import_module("reports.build")
 
 
 def write_reports(directory: Path) -> None:
@@ -19,8 +19,8 @@ def write_reports(directory: Path) -> None:
     ValidationError
         If the directory is not a finished comparison.
     """
-    from reports import ReportError
-    from reports import write_reports as write
+    from reports.build import write_reports as write
+    from reports.errors import ReportError
 
     try:
         write(directory)

@@ -7,11 +7,13 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
 
+from cases.shell.whole import write_text, writing
+from validation.errors import ValidationError
 from validation.runs.cached import canonical, code_digest
-from validation.runs.output import write_json, write_text
+from validation.runs.output import write_json
 from validation.runs.provenance import git_commit, installed, shown_path
 from validation.sweep import outputs, parameters
-from validation.sweep.folder import ACCOUNT, STUDY, Counts, writing
+from validation.sweep.folder import ACCOUNT, STUDY, Counts
 from validation.sweep.judging import STATES
 from validation.sweep.study import Study
 
@@ -75,7 +77,7 @@ def write_account(
     total = account["design"]["samples"]
     progress = {"done": counts.done, "failed": counts.failed, "total": total}
     found = {"state": state, "counts": progress, "sensitivity": sensitivity}
-    with writing(folder / ACCOUNT):
+    with writing(folder / ACCOUNT, ValidationError):
         write_json(folder / ACCOUNT, account | found)
 
 
@@ -87,5 +89,5 @@ def write_study(folder: Path, study: Study) -> None:
     ValidationError
         If it cannot be written.
     """
-    with writing(folder / STUDY):
+    with writing(folder / STUDY, ValidationError):
         write_text(folder / STUDY, study.text)

@@ -4,7 +4,7 @@ import hashlib
 import json
 from pathlib import Path
 
-from validation.runs.output import write_text
+from cases.shell.whole import write_text
 from validation.tables.experiment import Result
 
 ROOT = Path(__file__).parents[2]
