@@ -1,8 +1,6 @@
 """The thesis's tables, computed again: ``python -m validation.tables``."""
 
-import sys
-
 from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(run("validation.tables.command"))
+    raise SystemExit(run("validation.tables.command"))
