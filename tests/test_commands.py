@@ -20,6 +20,7 @@ from validation.__main__ import COMMANDS, main
 from validation.errors import ValidationError
 
 ROOT = Path(__file__).parents[1]
+NOTHING = "interrupted; no result was written"
 # Sends itself a signal when a module is looked for.
 INTERRUPTED = """
 import os, runpy, signal, sys

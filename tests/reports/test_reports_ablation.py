@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from reports import ReportError
+from reports.errors import ReportError
 from reports.sections.ablation import ablation_section
 
 ROW = {

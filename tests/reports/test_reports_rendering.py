@@ -11,7 +11,8 @@ import pypdf
 import pytest
 import synthetic_comparison as synthetic
 
-from reports import pages, write_reports
+from reports import pages
+from reports.build import write_reports
 from reports.command import main
 
 Rows = list[dict[str, Any]]

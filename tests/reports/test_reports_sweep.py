@@ -12,9 +12,9 @@ import pandas as pd
 import pytest
 import synthetic_sweep as synthetic
 
-from reports import ReportError
 from reports.blocks import Table
 from reports.command import main
+from reports.errors import ReportError
 from reports.sweep import write_sweep_page
 from reports.sweep.account import headline
 from reports.sweep.build import sweep_report

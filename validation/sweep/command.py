@@ -72,7 +72,7 @@ def _run(chosen: argparse.Namespace, places: list[Path]) -> int:
     _check_libraries()
     _check_scheduler(chosen.scheduler)
     with interrupts_deferred():
-        from reports.sweep.build import write_sweep_page
+        from reports.sweep import write_sweep_page
         from solver.runs.batch import available_threads
         from validation.sweep.folder import PAGE_FILES
         from validation.sweep.run import Where, run_sweep
