@@ -25,9 +25,10 @@ from validation.compare.comparison import (
 from validation.compare.comparison_file import ComparisonFile, comparison_file
 from validation.compare.paraview import write_walls
 from validation.compare.rendering import load_reports, write_reports
+from validation.errors import ValidationError
 from validation.metrics import rows as metrics
 from validation.metrics.assumptions import assumption_rows
-from validation.metrics.bands import band_rows
+from validation.metrics.bands import FAIL, MISSING, OK, band_rows
 from validation.metrics.confidence import confidence_rows
 from validation.metrics.curved_section import curved_section_rows
 from validation.metrics.pooled_change import pooled_change_rows, without_rays
@@ -35,7 +36,7 @@ from validation.metrics.profile_curves import CURVE, error_curves, profile_rows
 from validation.metrics.rows import Models, Row, models_of
 from validation.reference.generated import check_computed, check_stated
 from validation.runs.cache import Cache
-from validation.runs.output import result_directory, write_json, write_metrics
+from validation.runs.output import check_target, result_directory, write_json, write_metrics
 from validation.runs.variants import Watch, align_variants, run_variants, watching
 
 
@@ -147,3 +148,30 @@ def _compared(
 def _store(stored: ComparisonFile, name: str, both: xr.Dataset, watch: Watch) -> None:
     with watch.step("comparison.nc"):
         stored.write(name, both)
+
+
+def targets(files: list[CaseFile], output: Path | None) -> list[Path]:
+    """Choose the result directory of each case.
+
+    Raises
+    ------
+    ValidationError
+        If two cases have one name, or a target must not be replaced.
+    """
+    names = [file.name for file in files]
+    if len(set(names)) < len(names):
+        raise ValidationError(f"case names must differ, found: {', '.join(names)}")
+    if output is not None and len(files) == 1:
+        found = [output]
+    else:
+        found = [(output or Path("results")) / name for name in names]
+    for target in found:
+        check_target(target)
+    return found
+
+
+def summary(file: CaseFile, target: Path, bands: list[Row]) -> str:
+    """One line for people."""
+    counts = {status: sum(row.status == status for row in bands) for status in (OK, FAIL, MISSING)}
+    verdict = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "none declared"
+    return f"{file.name}: bands: {verdict}; report: {target / 'report.html'}, {target / 'report.pdf'}"

@@ -1,20 +1,14 @@
 """``python -m validation.compare CASE.yaml``: what it is told, what it says, and its exit status."""
 
-from __future__ import annotations
-
 import argparse
 import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
 from cases.shell.interrupts import interrupts_deferred
-
-if TYPE_CHECKING:
-    from cases.reading.case_file import CaseFile
-    from validation.metrics.rows import Row
 
 
 def arguments(argv: Sequence[str]) -> argparse.Namespace:
@@ -48,7 +42,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(chosen: argparse.Namespace, command: list[str]) -> int:
     with interrupts_deferred():
         from cases.reading.case_file import load_case_file
-        from validation.compare.case import compare_case
+        from validation.compare.case import compare_case, summary, targets
         from validation.compare.side_by_side import write_side_by_side
         from validation.metrics.bands import FAIL, MISSING
         from validation.runs.cache import open_cache
@@ -56,7 +50,7 @@ def _run(chosen: argparse.Namespace, command: list[str]) -> int:
     cache = open_cache(chosen.fresh)
     files = [load_case_file(path) for path in chosen.cases]
     places = targets(files, chosen.output)
-    rows: dict[str, list[Row]] = {}
+    rows: dict[str, Any] = {}
     broken = False
     for file, target in zip(files, places, strict=True):
         outcome = compare_case(file, target, command, cache)
@@ -70,35 +64,3 @@ def _run(chosen: argparse.Namespace, command: list[str]) -> int:
         written = write_side_by_side(places[0].parent, rows)
         print(f"{len(files)} cases side by side: {', '.join(map(str, written))}")
     return BAND_BROKEN if broken and chosen.check else COMPLETE
-
-
-def targets(files: list[CaseFile], output: Path | None) -> list[Path]:
-    """Choose the result directory of each case.
-
-    Raises
-    ------
-    ValidationError
-        If two cases have one name, or a target must not be replaced.
-    """
-    from validation.errors import ValidationError
-    from validation.runs.output import check_target
-
-    names = [file.name for file in files]
-    if len(set(names)) < len(names):
-        raise ValidationError(f"case names must differ, found: {', '.join(names)}")
-    if output is not None and len(files) == 1:
-        found = [output]
-    else:
-        found = [(output or Path("results")) / name for name in names]
-    for target in found:
-        check_target(target)
-    return found
-
-
-def summary(file: CaseFile, target: Path, bands: list[Row]) -> str:
-    """One line for people."""
-    from validation.metrics.bands import FAIL, MISSING, OK
-
-    counts = {status: sum(row.status == status for row in bands) for status in (OK, FAIL, MISSING)}
-    verdict = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "none declared"
-    return f"{file.name}: bands: {verdict}; report: {target / 'report.html'}, {target / 'report.pdf'}"

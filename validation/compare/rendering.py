@@ -3,12 +3,14 @@
 from importlib import import_module
 from pathlib import Path
 
+from cases.shell.interrupts import interrupts_deferred
 from validation.errors import ValidationError
 
 
 def load_reports() -> None:
     """Load the package that draws, with Matplotlib and all it needs: about a second."""
-    import_module("reports.build")
+    with interrupts_deferred():
+        import_module("reports.build")
 
 
 def write_reports(directory: Path) -> None:

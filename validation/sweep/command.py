@@ -58,17 +58,16 @@ def _check_libraries() -> None:
 def main(argv: Sequence[str] | None = None) -> int:
     """Exit status: 0 complete, failed samples included, 2 for a wrong input, 130 interrupted."""
     chosen = arguments(argv)
-    places = [] if chosen.output is None else [chosen.output]
 
     def interrupted() -> str:
-        kept = f"what is done is kept in {places[0]}" if places else "nothing was computed"
+        kept = f"what is done is kept in {chosen.output}" if chosen.output else "nothing was computed"
         return f"interrupted; {kept}, and the same command goes on"
 
-    return concluded(lambda: _run(chosen, places), interrupted)
+    return concluded(lambda: _run(chosen), interrupted)
 
 
-def _run(chosen: argparse.Namespace, places: list[Path]) -> int:
-    """Sweep; the folder is put into ``places`` as soon as it is known."""
+def _run(chosen: argparse.Namespace) -> int:
+    """Sweep; where no folder is chosen, the study's is, as soon as its name is known."""
     _check_libraries()
     _check_scheduler(chosen.scheduler)
     with interrupts_deferred():
@@ -79,8 +78,7 @@ def _run(chosen: argparse.Namespace, places: list[Path]) -> int:
         from validation.sweep.study import load_study
 
     study = load_study(chosen.study)
-    folder = chosen.output or Path("results") / study.name
-    places[:] = [folder]
+    folder = chosen.output = chosen.output or Path("results") / study.name
     where = Where(folder, chosen.scheduler, chosen.workers or available_threads(), chosen.fresh)
     counts = run_sweep(study, where, lambda words: print(words, file=sys.stderr))
     with writing(folder / PAGE_FILES[0], ValidationError):
