@@ -30,11 +30,11 @@ from cases.reading.case_file import load_case_file
 from cases.reading.numeric_keys import numeric_keys
 from cases.reading.template import case_with, load_template
 from cases.sections.case import Case
+from cases.shell.whole import write_text
 from solver.case.run import run_case
 from solver.model.parameters import Model
 from solver.runs.batch import run_batch
 from solver.runs.result import CellHistory, section_mean
-from validation.runs.output import write_text
 from validation.runs.provenance import provenance
 
 ROOT = Path(__file__).parents[1]

@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from cases.shell.errors import InputError
 
-class CaseError(ValueError):
+
+class CaseError(InputError, ValueError):
     """The input is wrong; the message says where, what was found and what is allowed."""
 
 

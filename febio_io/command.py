@@ -2,13 +2,12 @@
 
 import argparse
 import json
-import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal
 
-from febio_io.errors import FebioError, FebioFileError
+from cases.shell.command import COMPLETE, concluded
+from febio_io.errors import FebioFileError
 from febio_io.feb.structure import read_structure
 from febio_io.feb.summary import model_lines, summarize_model
 from febio_io.files import open_file
@@ -16,7 +15,7 @@ from febio_io.selection import parse_states
 from febio_io.text.data_records import looks_like_record, read_data_record
 from febio_io.text.log import LOOKED_AT, looks_like_log, read_log
 from febio_io.text.summary import log_lines, record_lines, summarize_log, summarize_record
-from febio_io.views.export import Advance, export_log, export_plot, export_record
+from febio_io.views.export import export_log, export_plot, export_record
 from febio_io.xplt import open_plot
 from febio_io.xplt.root import MAGIC_SIZE
 from febio_io.xplt.summary import summarize, summary_lines
@@ -26,32 +25,19 @@ FORMATS = ("vtu", "vtkhdf", "csv", "nc")
 MAGICS = (MAGIC.to_bytes(MAGIC_SIZE, "little"), MAGIC.to_bytes(MAGIC_SIZE, "big"))
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command.
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0, 2 if the file cannot be read or what is asked for cannot be done, 130 interrupted."""
+    chosen = arguments(argv)
+    return concluded(lambda: _run(chosen), "interrupted; no file was written", prefix="febio_io: ")
 
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        Arguments of the command line; those of the process by default.
 
-    Returns
-    -------
-    int
-        Exit status: 0, or 2 if the file cannot be read or what is asked for cannot be done.
-    """
-    options = _parser().parse_args(arguments)
+def _run(options: argparse.Namespace) -> int:
     if options.export is None and (options.format or options.variables or options.states):
-        print("febio_io: --format, --variables and --states need --export", file=sys.stderr)
-        return 2
-    try:
-        kind = kind_of(options.file)
-        run = {"plot": _run_plot, "log": _run_log, "record": _run_record, "model": _run_model}[kind]
-        lines = run(options)
-    except FebioError as error:
-        print(f"febio_io: {error}", file=sys.stderr)
-        return 2
-    print("\n".join(lines))
-    return 0
+        raise FebioFileError("--format, --variables and --states need --export")
+    kind = kind_of(options.file)
+    run = {"plot": _run_plot, "log": _run_log, "record": _run_record, "model": _run_model}[kind]
+    print("\n".join(run(options)))
+    return COMPLETE
 
 
 def kind_of(path: Path) -> Literal["plot", "log", "record", "model"]:
@@ -80,9 +66,9 @@ def kind_of(path: Path) -> Literal["plot", "log", "record", "model"]:
     raise FebioFileError(f"{path}: not an FEBio plot file, log, data record or model: {what}")
 
 
-def _parser() -> argparse.ArgumentParser:
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Return what the command line states."""
     parser = argparse.ArgumentParser(
-        prog="python -m febio_io",
         description="Tell what an FEBio plot file (.xplt), log (.log), data record (.txt) or model (.feb) "
         "holds, or write results in another format.",
     )
@@ -102,7 +88,7 @@ def _parser() -> argparse.ArgumentParser:
         help="only these states or blocks: numbers from 0, or from the end if negative, and ranges "
         "FIRST:LAST[:STEP] with the last included, e.g. 0,10:20,-1 (as --states=-1 if it starts with a dash)",
     )
-    return parser
+    return parser.parse_args(argv)
 
 
 def _run_plot(options: argparse.Namespace) -> list[str]:
@@ -111,14 +97,19 @@ def _run_plot(options: argparse.Namespace) -> list[str]:
             summary = summarize(plot)
             return _shown(summary, summary_lines(summary), options.json)
         states = None if options.states is None else parse_states(options.states, plot.n_states)
-        with _progress() as advance:
+        from rich.progress import SpinnerColumn  # only an export needs them
+
+        from cases.shell.terminal import progress
+
+        with progress(SpinnerColumn(), "{task.completed} states written") as display:
+            task = display.add_task("", total=None)
             written = export_plot(
                 plot,
                 options.export,
                 options.format or "vtu",
                 variables=options.variables,
                 states=states,
-                advance=advance,
+                advance=lambda: display.advance(task),
             )
     return _written(written, options.json)
 
@@ -159,18 +150,3 @@ def _shown(summary: dict[str, Any], lines: Iterator[str], as_json: bool) -> list
 def _written(paths: list[Path], as_json: bool) -> list[str]:
     names = [str(path) for path in paths]
     return [json.dumps({"written": names}, indent=2)] if as_json else [f"wrote {name}" for name in names]
-
-
-@contextmanager
-def _progress() -> Iterator[Advance]:
-    """Show how many states have been written, if there is a terminal to show it on."""
-    if not sys.stderr.isatty():
-        yield lambda: None
-        return
-    from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn
-
-    columns = (SpinnerColumn(), TextColumn("{task.completed} states written"))
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("", total=None)
-        yield lambda: progress.advance(task)

@@ -4,8 +4,10 @@ from collections.abc import Iterable
 from difflib import SequenceMatcher
 from pathlib import Path
 
+from cases.shell.errors import InputError
 
-class FebioError(Exception):
+
+class FebioError(InputError):
     """Base of every error of this package."""
 
 

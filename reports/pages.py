@@ -1,10 +1,10 @@
 """Files of a report: both renderings, each written whole or not at all."""
 
-import os
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from cases.shell.whole import write_whole
 from reports.blocks import Report
 from reports.html import render_html
 from reports.pdf import render_pdf
@@ -20,9 +20,5 @@ def rendered(content: Report, drawings: Mapping[str, str]) -> tuple[bytes, bytes
 def write_pages(pages: Mapping[Path, bytes]) -> None:
     """Write each page whole or not at all: a reader never finds half a file."""
     for path, data in pages.items():
-        partial = path.with_name(f".{path.name}.{os.getpid()}")
-        try:
+        with write_whole(path) as partial:
             partial.write_bytes(data)
-            partial.replace(path)
-        finally:
-            partial.unlink(missing_ok=True)

@@ -1,7 +1,9 @@
 """What can stop a run of the reduced model, by name."""
 
+from cases.shell.errors import InputError
 
-class SolverError(Exception):
+
+class SolverError(InputError):
     """Base of everything the solver raises on purpose."""
 
 

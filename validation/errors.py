@@ -1,7 +1,9 @@
 """What can be wrong with a comparison's input."""
 
+from cases.shell.errors import InputError
 
-class ValidationError(Exception):
+
+class ValidationError(InputError):
     """Base of everything this package raises on purpose."""
 
 

@@ -1,8 +1,6 @@
 """Writes the FEBio model of a case: ``python -m febio_io.feb CASE.yaml --output MODEL.feb``."""
 
-import sys
-
-from febio_io.interrupts import run_command
+from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(run_command("febio_io.feb.command"))
+    raise SystemExit(run("febio_io.feb.command"))

@@ -6,53 +6,44 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from cases.errors import CaseError, QuantityError
+from cases.errors import QuantityError
 from cases.reading.case_file import CaseFile, load_case_file
 from cases.sections.case import Case
 from cases.sections.references.febio import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
+from cases.shell.command import COMPLETE, concluded
 from cases.values.ranges import TIME_STEPS
 from cases.values.units import DIMENSIONS, parse_quantity
-from febio_io.errors import FebioError
 from febio_io.feb.from_case import Choices, artery_model
 from febio_io.feb.model import FebioModelError, MeshSize
 from febio_io.feb.writer import write_model
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command.
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0, 2 if the case or an option is wrong or the model cannot be written, 130 interrupted."""
+    chosen = arguments(argv)
+    return concluded(lambda: _run(chosen), "interrupted; no model was written")
 
-    Returns
-    -------
-    int
-        Exit status: 0, or 2 if the case or an option is wrong or the model cannot be written.
-    """
-    options = _parser().parse_args(arguments)
-    try:
-        if options.output.suffix != ".feb":
-            raise FebioModelError(f"--output {options.output}: allowed: a name that ends in .feb")
-        file = load_case_file(options.case)
-        name, case = _variant(file, options.variant)
-        model = artery_model(case, _choices(options, case))
-        begin = time.perf_counter()
-        for warning in write_model(model, options.output):
-            print(f"warning: {options.case}: {name}: {warning}", file=sys.stderr)
-    except CaseError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except FebioError as error:
-        print(f"febio_io.feb: {error}", file=sys.stderr)
-        return 2
+
+def _run(options: argparse.Namespace) -> int:
+    if options.output.suffix != ".feb":
+        raise FebioModelError(f"--output {options.output}: allowed: a name that ends in .feb")
+    file = load_case_file(options.case)
+    name, case = _variant(file, options.variant)
+    model = artery_model(case, _choices(options, case))
+    begin = time.perf_counter()
+    for warning in write_model(model, options.output):
+        print(f"warning: {options.case}: {name}: {warning}", file=sys.stderr)
     print(
         f"wrote {options.output}: {file.name}, {name}: {model.size.n_elements} elements, "
         f"{model.timing.n_steps} steps of {model.timing.time_step:.6g} s "
         f"({time.perf_counter() - begin:.1f} s)"
     )
-    return 0
+    return COMPLETE
 
 
-def _parser() -> argparse.ArgumentParser:
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Return what the command line states."""
     parser = argparse.ArgumentParser(
-        prog="python -m febio_io.feb",
         description="Write the FEBio model (.feb) of a case, a fluid-structure simulation in 3D.",
         epilog="python -m febio_io.run MODEL.feb runs it. Options left out are those of the case's "
         "reference.generate, if it states any.",
@@ -81,7 +72,7 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="have FEBio write some values as text, to check the plot file by",
     )
-    return parser
+    return parser.parse_args(argv)
 
 
 def _variant(file: CaseFile, wanted: str | None) -> tuple[str, Case]:

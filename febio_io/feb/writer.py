@@ -1,7 +1,5 @@
 """Writes a model: small sections by the standard library, the lists of the mesh as text, piece by piece."""
 
-import os
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from xml.etree.ElementTree import Element, tostring
@@ -9,6 +7,7 @@ from xml.etree.ElementTree import Element, tostring
 import numpy as np
 
 from cases.arrays import Floats, Integers
+from cases.shell.whole import write_whole, writing
 from febio_io.errors import FebioFileError
 from febio_io.feb import sections
 from febio_io.feb.calcified import calcified_elements
@@ -48,21 +47,10 @@ def write_model(model: ArteryModel, path: Path) -> tuple[str, ...]:
         calcified = calcified_elements(model.vessel, model.size, model.patch)
         hard = calcified.elements
         warnings = () if calcified.warning is None else (calcified.warning,)
-    try:
+    with writing(path, FebioFileError):
         path.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, name = tempfile.mkstemp(prefix=".febio_io-", suffix=".feb", dir=path.parent)
-    except OSError as error:
-        raise FebioFileError(f"{path}: cannot be written: {error.strerror}") from error
-    temporary = Path(name)
-    try:
-        with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as stream:
+        with write_whole(path) as partial, partial.open("w", encoding="utf-8", newline="\n") as stream:
             stream.writelines(_document(model, mesh, hard))
-        temporary.chmod(0o644)
-        temporary.replace(path)
-    except OSError as error:
-        raise FebioFileError(f"{path}: cannot be written: {error.strerror}") from error
-    finally:
-        temporary.unlink(missing_ok=True)
     return warnings
 
 

@@ -1,17 +1,17 @@
 """The command ``python -m febio_io.run``."""
 
 import argparse
-import signal
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import BarColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from febio_io.errors import FebioError, FebioFileError
+from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
+from cases.shell.terminal import progress
+from febio_io.errors import FebioFileError
 from febio_io.feb.structure import Contents, read_structure
 from febio_io.run.executable import FebioRunError, find_febio
 from febio_io.run.log_tail import LogTail
@@ -22,40 +22,19 @@ from febio_io.xplt import open_plot
 Watch = Callable[[LogTail], None]
 
 MOST_THREADS = 1024
-COMPLETE, FAILED, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+FAILED = BAND_BROKEN
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command.
-
-    Returns
-    -------
-    int
-        Exit status: 0 if FEBio ended normally, 1 if it did not, 2 if it could not be run, 130 if interrupted.
-    """
-    options = _parser().parse_args(arguments)
-    signal.signal(signal.SIGTERM, _interrupt)
-    try:
-        return _run(options)
-    except FebioError as error:
-        print(f"febio_io.run: {error}", file=sys.stderr)
-        return WRONG_INPUT
-    except KeyboardInterrupt:
-        print(
-            f"interrupted; FEBio has been ended; what it wrote is left as it is: {_results(options.model)}",
-            file=sys.stderr,
-        )
-        return INTERRUPTED
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0 if FEBio ended normally, 1 if it did not, 2 if it could not be run, 130 interrupted."""
+    chosen = arguments(argv)
+    left = "interrupted; FEBio has been ended; what it wrote is left as it is"
+    return concluded(lambda: _run(chosen), lambda: f"{left}: {_results(chosen.model)}", "febio_io.run: ")
 
 
-def _interrupt(*_: object) -> None:
-    """Let a request to terminate clean up as Ctrl-C does."""
-    raise KeyboardInterrupt
-
-
-def _parser() -> argparse.ArgumentParser:
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Return what the command line states."""
     parser = argparse.ArgumentParser(
-        prog="python -m febio_io.run",
         description="Run FEBio 4 on a model; plot file and log are written beside it.",
         epilog="Exit status: 0 normal termination; 1 FEBio failed; 2 it could not be run.",
     )
@@ -67,7 +46,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--force", action="store_true", help="replace the plot file and log of an earlier run"
     )
-    return parser
+    return parser.parse_args(argv)
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -132,21 +111,13 @@ def _last_error(log: Log) -> str:
 @contextmanager
 def _shown(model: Path, contents: Contents) -> Iterator[Watch]:
     """Show how far the run is, if there is a terminal to show it on."""
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TextColumn(
-            "{task.completed:.4g} of {task.total:.4g} s, step {task.fields[steps]}{task.fields[retries]}"
-        ),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task(model.name, total=contents.end, steps=0, retries="")
+    reached = "{task.completed:.4g} of {task.total:.4g} s, step {task.fields[steps]}{task.fields[retries]}"
+    columns = ("{task.description}", BarColumn(), reached, TimeElapsedColumn(), TimeRemainingColumn())
+    with progress(*columns) as display:
+        task = display.add_task(model.name, total=contents.end, steps=0, retries="")
 
         def watch(tail: LogTail) -> None:
             retries = f", {tail.retries} retries" if tail.retries else ""
-            progress.update(task, completed=tail.time, steps=tail.steps, retries=retries)
+            display.update(task, completed=tail.time, steps=tail.steps, retries=retries)
 
         yield watch

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from febio_io.interrupts import interrupts_deferred
+from cases.shell.interrupts import interrupts_deferred
 from febio_io.run.executable import FebioRunError
 from febio_io.run.log_tail import LogTail
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from cases.shell.interrupts import interrupts_deferred
 from febio_io.errors import FebioKeyError, nearest_first
-from febio_io.interrupts import interrupts_deferred
 from febio_io.text.data_records import DataRecord
 from febio_io.text.log import Log
 from febio_io.views.file_names import safe_name

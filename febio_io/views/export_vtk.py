@@ -13,8 +13,8 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
+from cases.shell.interrupts import interrupts_told_to
 from febio_io.errors import FebioFileError, FebioKeyError
-from febio_io.interrupts import interrupts_told_to
 from febio_io.views.file_names import safe_name
 from febio_io.views.grids import to_pyvista
 from febio_io.xplt import Plot, Variable
@@ -120,8 +120,8 @@ class _StateSource(VTKPythonAlgorithmBase):
         self._made = part.grid(part.states[0])  # VTK's writer needs a mesh, whatever fails later
         self.failure: BaseException | None = None
 
-    def interrupt(self) -> None:
-        """Make no more meshes: a Ctrl-C is kept like any failure."""
+    def interrupt(self, _signal: object) -> None:
+        """Make no more meshes: an interrupt is kept like any failure."""
         self.failure = KeyboardInterrupt()
 
     def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:

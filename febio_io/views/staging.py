@@ -1,12 +1,11 @@
 """Writing files so that each appears whole or not at all."""
 
-import os
-import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from cases.shell.whole import writing
 from febio_io.errors import FebioFileError
 
 
@@ -35,19 +34,15 @@ def staged(folder: Path, written: list[Path]) -> Iterator[Path]:
     """
     made = not folder.exists()
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        temporary = Path(tempfile.mkdtemp(prefix=".febio_io-", dir=folder))
-    except OSError as error:
-        raise FebioFileError(f"{folder}: cannot be written to: {error.strerror}") from error
-    try:
-        yield temporary
-        for path in sorted(temporary.iterdir(), key=lambda path: (path.suffix == ".pvd", path.name)):
-            target = folder / path.name
-            os.replace(path, target)  # noqa: PTH105 - the name says what matters
-            written.append(target)
-    except OSError as error:
-        raise FebioFileError(f"{folder}: cannot be written to: {error.strerror or error}") from error
+        with writing(folder, FebioFileError, "cannot be written to"):
+            folder.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryDirectory(prefix=".febio_io-", dir=folder) as temporary:
+                yield Path(temporary)
+                paths = Path(temporary).iterdir()
+                for path in sorted(paths, key=lambda path: (path.suffix == ".pvd", path.name)):
+                    target = folder / path.name
+                    path.replace(target)
+                    written.append(target)
     finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-        if made and not written:
+        if made and not written and folder.is_dir():
             folder.rmdir()

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from cases.shell.whole import write_whole, writing
 from solver.errors import SolverError
 
 
@@ -35,13 +36,8 @@ def write_netcdf(dataset: xr.Dataset, path: Path, unlimited: tuple[str, ...] = (
     SolverError
         If the file cannot be written.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        dataset.to_netcdf(partial, engine="netcdf4", unlimited_dims=unlimited)
-        partial.replace(path)
-    except (OSError, RuntimeError) as error:  # netCDF reports a full disk as RuntimeError
-        raise SolverError(
-            f"{path}: cannot be written: {getattr(error, 'strerror', None) or error}"
-        ) from error
-    finally:
-        partial.unlink(missing_ok=True)
+        with writing(path, SolverError), write_whole(path) as partial:
+            dataset.to_netcdf(partial, engine="netcdf4", unlimited_dims=unlimited)
+    except RuntimeError as error:  # so netCDF reports a full disk
+        raise SolverError(f"{path}: cannot be written: {error}") from error

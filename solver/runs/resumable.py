@@ -18,6 +18,7 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.sections.case import Case
+from cases.shell.whole import write_whole, writing
 from solver.case.locality import wall_locality_error, widest
 from solver.case.model import default_output_times, model_of
 from solver.case.periodicity import cycle_change
@@ -143,12 +144,10 @@ def _prepare(folder: Path, identity: str, resume: bool) -> Path:
         if mark.read_text(encoding="ascii") != identity:
             raise SolverError(f"{folder}: belongs to another case, variant or version; run without --resume")
         return folder
-    try:
+    with writing(folder, SolverError):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
         mark.write_text(identity, encoding="ascii")
-    except OSError as error:
-        raise SolverError(f"{folder}: cannot be written: {error.strerror or error}") from error
     return folder
 
 
@@ -164,15 +163,10 @@ def _write(path: Path, piece: Piece) -> None:
         values[_CROSSING] = piece.cells.azimuthal_flux
     values |= {f"diagnostic_{name}": found for name, found in piece.cells.diagnostics.items()}
     values |= {f"kept_{name}": found for name, found in piece.kept.items()}
-    partial = path.with_suffix(".part")
-    try:
-        with partial.open("wb") as stream:
-            np.savez(stream, **values)
-            stream.flush()
-            os.fsync(stream.fileno())
-        partial.replace(path)
-    except OSError as error:
-        raise SolverError(f"{path}: cannot be written: {error.strerror or error}") from error
+    with writing(path, SolverError), write_whole(path) as partial, partial.open("wb") as stream:
+        np.savez(stream, **values)
+        stream.flush()
+        os.fsync(stream.fileno())
 
 
 def _read(path: Path) -> Piece:
@@ -195,11 +189,10 @@ def _join(
     case: Case, model: Model, paths: list[Path], result: Path, attributes: dict[str, Any]
 ) -> dict[str, Any]:
     """Write the result from its pieces, one in memory at a time."""
-    partial = result.with_name(f".{result.name}.{os.getpid()}.part")
     steps = sweeps = 0
     longest = 0.0
     largest = dict.fromkeys(Diagnostics._fields, float("nan"))
-    try:
+    with writing(result, SolverError), write_whole(result) as partial:
         for path in paths:
             piece = _read(path)
             steps, sweeps = steps + piece.steps, sweeps + piece.sweeps
@@ -219,9 +212,4 @@ def _join(
             change = cycle_change(case, stored.variables)
             if change is not None:
                 stored.setncatts({"cycle_change": change})
-        partial.replace(result)
-    except OSError as error:
-        raise SolverError(f"{result}: cannot be written: {error.strerror or error}") from error
-    finally:
-        partial.unlink(missing_ok=True)
     return {"steps": steps, "time_step_s": longest, "largest": largest, "cycle_change": change}

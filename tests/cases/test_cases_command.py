@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from cases.__main__ import main
+from cases.command import main
 from cases.reading.json_schema import case_file_schema
 from cases.reading.yaml_nodes import parse_yaml
 from cases.sections.case import Case

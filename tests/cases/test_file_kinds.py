@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from cases.__main__ import main
+from cases.command import main
 from cases.errors import CaseFileError
 from cases.reading.calibration_file import load_calibration
 from cases.reading.case_file import load_case_file

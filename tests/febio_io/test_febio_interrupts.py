@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from xplt_samples import sample_file
 
-from febio_io.interrupts import interrupts_deferred, interrupts_told_to
+from cases.shell.interrupts import interrupts_deferred, interrupts_told_to
 
 ROOT = Path(__file__).parents[2]
 # Interrupts itself when a compiled module of VTK is about to be imported, i.e. within the import of another.
@@ -24,8 +24,8 @@ def interrupt(event, arguments):
         os.kill(os.getpid(), signal.SIGINT)
 
 sys.addaudithook(interrupt)
-from febio_io.__main__ import run
-sys.exit(run())
+from cases.shell.command import run
+sys.exit(run("febio_io.command"))
 """
 
 
@@ -51,10 +51,10 @@ def test_an_error_of_the_block_comes_first():
 
 def test_each_interrupt_is_told():
     told = []
-    with interrupts_told_to(lambda: told.append(1)):
+    with interrupts_told_to(told.append):
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
-    assert told == [1, 1]
+    assert told == [signal.SIGINT, signal.SIGINT]
 
 
 def test_other_threads_run_as_they_are():

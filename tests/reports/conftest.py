@@ -11,7 +11,7 @@ import pytest
 import synthetic_comparison as synthetic
 from playwright.sync_api import Browser, sync_playwright
 
-from reports import write_reports
+from reports.build import write_reports
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from reports import ReportError
+from reports.errors import ReportError
 from reports.sections.ablation import section
 
 ROW = {

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import synthetic_comparison as synthetic
 
-from reports.__main__ import main
+from reports.command import main
 from reports.gallery import entry, gallery_place, render_gallery
 from reports.result.load import load
 from reports.sections.content import report

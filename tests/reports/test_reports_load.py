@@ -11,7 +11,7 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports.__main__ import main
+from reports.command import main
 from reports.errors import ReportError
 from reports.result.load import load
 

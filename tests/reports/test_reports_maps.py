@@ -10,8 +10,8 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports import write_reports
 from reports.blocks import Figure, Paragraph, Section, Subsection, Table
+from reports.build import write_reports
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
 from reports.result.load import load
 from reports.sections import assumptions, dominance, exponents, maps

@@ -10,7 +10,7 @@ import synthetic_sweep
 from opened_page import NARROW, WIDE, open_page, overflowing, serious_defects
 from playwright.sync_api import Browser
 
-from reports import write_gallery
+from reports.build import write_gallery
 
 SIZES = pytest.mark.parametrize(
     ("size", "scheme"), [(WIDE, "light"), (NARROW, "dark")], ids=["1400 px, light", "400 px, dark"]

@@ -11,8 +11,9 @@ import pypdf
 import pytest
 import synthetic_comparison as synthetic
 
-from reports import pages, write_reports
-from reports.__main__ import main
+from reports import pages
+from reports.build import write_reports
+from reports.command import main
 
 Rows = list[dict[str, Any]]
 HOSTILE = '<script>alert("1")</script> # *bold* _low_ $x^2$ @key <label> \\ {{ 7*7 }} #panic() `raw` [a](b)'

@@ -13,9 +13,9 @@ import pytest
 import synthetic_sweep as synthetic
 
 from cases.results.sweep import KeptOutput, OutputBand, VariedParameter
-from reports import ReportError
-from reports.__main__ import main
 from reports.blocks import Table
+from reports.command import main
+from reports.errors import ReportError
 from reports.sweep import write_sweep_page
 from reports.sweep.amounts import amount, axis_label, ends
 from reports.sweep.build import sweep_report

@@ -8,7 +8,7 @@ import pytest
 from closed_forms import continuity_exponent
 from thesis_artery import DENSITY, DIASTOLE, LENGTH, PATTERNS, SECTION_OUTLET, VISCOSITY, artery
 
-import solver.__main__ as command
+import solver.command as command
 from solver.errors import AxisNotContinuous, CourantExceeded, EnergyNotBalanced, MassNotConserved
 from solver.marching.columns import columns_of
 from solver.marching.semi_implicit import simulate

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import solver.__main__ as command
+import solver.command as command
 import solver.runs.resumable as running
 from solver.runs.resumable import pieces_folder
 

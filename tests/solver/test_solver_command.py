@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import solver.__main__ as command
+import solver.command as command
 import solver.runs.resumable as running
 from cases.fields import FIELDS
 from solver.model.diagnostics import Diagnostics

@@ -22,7 +22,7 @@ settings.load_profile("validation")
 @pytest.fixture
 def quick(monkeypatch):
     """Without drawing reports."""
-    monkeypatch.setattr(compare, "write_reports", lambda directory: None)
+    monkeypatch.setattr("validation.compare.case.write_reports", lambda directory: None)
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from validation import benchmark
+from validation.benchmark import command as benchmark
 
 
 @pytest.fixture

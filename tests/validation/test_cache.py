@@ -204,7 +204,7 @@ class TestUse:
     def run(self, tmp_path, monkeypatch, made):
         """Run a case with a cache; give its metrics and provenance."""
         monkeypatch.setenv("ARTERIAL_ROM_CACHE", str(tmp_path / "cache"))
-        monkeypatch.setattr(compare, "write_reports", lambda directory: None)
+        monkeypatch.setattr("validation.compare.case.write_reports", lambda directory: None)
 
         def finished(*options, declared=()):
             result = tmp_path / "result"

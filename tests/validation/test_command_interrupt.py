@@ -9,6 +9,7 @@ import time
 import pytest
 from small_case import ROOT, bands, small_case, written
 
+from validation.compare import case as comparing
 from validation.compare import command as compare
 from validation.runs import cached as cached_runs
 from validation.runs import output
@@ -23,10 +24,10 @@ class TestInterrupt:
         ("module", "name"),
         [
             (cached_runs, "run_reduced_model"),
-            (compare, "both_models"),
-            (compare, "comparison_file"),
-            (compare, "write_walls"),
-            (compare, "write_reports"),
+            (comparing, "both_models"),
+            (comparing, "comparison_file"),
+            (comparing, "write_walls"),
+            (comparing, "write_reports"),
         ],
     )
     def test_nothing_is_left(self, tmp_path, capsys, monkeypatch, module, name, made):

@@ -34,7 +34,9 @@ class TestTarget:
         assert (tmp_path / "result/metrics.csv").is_file()
 
     def test_a_directory_of_something_else_is_refused(self, tmp_path, capsys, monkeypatch, made):
-        monkeypatch.setattr(compare, "compare_case", lambda *_: pytest.fail("something was computed"))
+        monkeypatch.setattr(
+            "validation.compare.case.compare_case", lambda *_: pytest.fail("something was computed")
+        )
         keep = tmp_path / "result" / "thesis.txt"
         keep.parent.mkdir()
         keep.write_text("precious")

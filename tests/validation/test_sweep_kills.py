@@ -14,9 +14,9 @@ from pandas.testing import assert_frame_equal
 from small_case import ROOT
 from small_sweep import records, small_study, study_file, swept
 
-from validation.sweep.__main__ import main
 from validation.sweep.chunk import Plan
 from validation.sweep.cluster import SETTINGS, connected
+from validation.sweep.command import main
 from validation.sweep.samples import Sample
 from validation.sweep.stream import computed
 
@@ -109,11 +109,15 @@ def test_a_client_that_is_killed_goes_on_where_it_was(study, expected):
     assert all(part.stat().st_mtime_ns == time for part, time in kept.items())
 
 
-def test_an_interrupt_keeps_what_is_done_and_leaves_no_process(study, expected):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_keeps_what_is_done_and_leaves_no_process(study, expected, number):
     process = started(study)
     wait_for(lambda: len(parts(study)) >= 2, process)
     running = workers(process)
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: workers get it too
+    if number == signal.SIGINT:
+        os.killpg(process.pid, number)  # as a terminal does: workers get it too
+    else:
+        process.send_signal(number)
     out, err = process.communicate(timeout=PATIENCE)
     folder = study.parent / "out"
     assert (process.returncode, out) == (130, "")

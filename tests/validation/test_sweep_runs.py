@@ -21,7 +21,7 @@ from validation.compare import command as compare
 from validation.errors import ValidationError
 from validation.metrics.statistics import rms
 from validation.sweep import run
-from validation.sweep.__main__ import main
+from validation.sweep.command import main
 from validation.sweep.folder import claimed
 
 MODULUS = "calcification.youngs_modulus"
@@ -302,7 +302,7 @@ def test_wrong_options_are_refused(tmp_path, capsys, arguments, message):
 
 
 def test_missing_libraries_are_named(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("validation.sweep.__main__.find_spec", lambda name: None)
+    monkeypatch.setattr("validation.sweep.command.find_spec", lambda name: None)
     assert main([str(study_file(tmp_path))]) == 2
     assert "sweeps need distributed, locket, pyarrow, SALib; install them" in capsys.readouterr().err
 

@@ -9,7 +9,7 @@ from small_case import ROOT
 from small_sweep import GRID, small_study, study_file
 
 from cases.errors import CaseFileError
-from validation.sweep.__main__ import main
+from validation.sweep.command import main
 from validation.sweep.design import samples_of
 from validation.sweep.samples import samples_of_study
 from validation.sweep.study import load_study

@@ -142,7 +142,7 @@ def test_a_case_that_does_not_fit_is_refused(tmp_path, case, said):
 
 
 def test_our_2d_model_is_the_thesiss(tmp_path, monkeypatch):
-    monkeypatch.setattr(compare, "write_reports", lambda directory: None)
+    monkeypatch.setattr("validation.compare.case.write_reports", lambda directory: None)
     case = content("none-2D", "none")
     case["solver"] |= {"n_phi": 4, "time_step": "4 ms"}
     case["reference"]["n_phi"] = 4

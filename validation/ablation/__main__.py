@@ -1,8 +1,6 @@
 """Parts of the coupled model: ``python -m validation.ablation CASE.yaml``."""
 
-import sys
-
-from validation.ablation.command import main
+from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(main())
+    raise SystemExit(run("validation.ablation.command"))

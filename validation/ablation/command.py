@@ -5,24 +5,23 @@ run. In a directory that holds a finished comparison its reports get the table t
 """
 
 import argparse
-import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from rich.console import Console
 from rich.table import Table
 
 from cases.arrays import Floats
-from cases.errors import CaseError
 from cases.reading.case_file import CaseFile, load_case_file
 from cases.results.ablation import MEASURES, AblationRow
 from cases.sections.case import Case, LocalCalcification
-from febio_io.errors import FebioError
-from reports import ReportError, write_reports
+from cases.shell.command import COMPLETE, concluded
+from cases.shell.terminal import page
+from cases.shell.whole import write_text, writing
+from reports.build import write_reports
 from solver.case.model import grid_of
 from solver.errors import SolverError
 from validation.ablation.ladder import models_between
@@ -37,8 +36,6 @@ from validation.runs.output import MARK, write_json
 from validation.runs.reduced_model import run_reduced_model
 from validation.runs.variants import Watch, watching
 
-EXPECTED = (CaseError, SolverError, FebioError, ValidationError, ReportError)
-WRONG_INPUT, INTERRUPTED = 2, 130
 PAGE_WIDTH = 160
 
 
@@ -108,16 +105,10 @@ def write_rows(directory: Path, rows: list[AblationRow]) -> None:
         If the directory holds a comparison that is damaged.
     """
     records = [asdict(row) for row in rows]
-    try:
+    with writing(directory, ValidationError):
         directory.mkdir(parents=True, exist_ok=True)
-        partial = directory / ".ablation.csv.part"
-        pd.DataFrame(records).to_csv(partial, index=False)
-        partial.replace(directory / "ablation.csv")
-        partial = directory / ".ablation.json.part"
-        write_json(partial, records)
-        partial.replace(directory / "ablation.json")
-    except OSError as error:
-        raise ValidationError(f"{directory}: cannot be written: {error.strerror or error}") from error
+        write_text(directory / "ablation.csv", pd.DataFrame(records).to_csv(index=False))
+        write_json(directory / "ablation.json", records)
     if (directory / MARK).is_file():
         write_reports(directory)
 
@@ -136,9 +127,9 @@ def printed(rows: list[AblationRow]) -> Table:
     return table
 
 
-def _arguments(argv: list[str] | None) -> argparse.Namespace:
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Return what the command line states."""
     parser = argparse.ArgumentParser(
-        prog="python -m validation.ablation",
         description="Run each model between the thesis's and the coupled one against the same 3D runs.",
     )
     parser.add_argument("case", type=Path, metavar="CASE.yaml", help="case file")
@@ -154,22 +145,19 @@ def _arguments(argv: list[str] | None) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def main(argv: list[str] | None = None) -> int:
-    """Run the command; return its exit status."""
-    arguments = _arguments(argv)
-    try:
-        file = load_case_file(arguments.case)
-        directory = arguments.output or Path("results") / f"{file.name}-ablation"
-        with watching() as watch:
-            rows = list(ablation_rows(file, arguments.sectors, watch))
-        write_rows(directory, rows)
-    except EXPECTED as error:
-        print(error, file=sys.stderr)
-        return WRONG_INPUT
-    except KeyboardInterrupt:
-        print("interrupted; no result was written", file=sys.stderr)
-        return INTERRUPTED
-    console = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0, 2 for a wrong input, 130 interrupted."""
+    chosen = arguments(argv)
+    return concluded(lambda: _run(chosen), "interrupted; no result was written")
+
+
+def _run(chosen: argparse.Namespace) -> int:
+    file = load_case_file(chosen.case)
+    directory = chosen.output or Path("results") / f"{file.name}-ablation"
+    with watching() as watch:
+        rows = list(ablation_rows(file, chosen.sectors, watch))
+    write_rows(directory, rows)
+    console = page(PAGE_WIDTH)
     console.print(printed(rows))
     console.print(f"{directory / 'ablation.csv'}")
-    return 0
+    return COMPLETE

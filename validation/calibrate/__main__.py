@@ -1,8 +1,6 @@
 """Fit numbers of a case: ``python -m validation.calibrate CALIBRATION.yaml``."""
 
-import sys
-
-from validation.calibrate.command import main
+from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(main())
+    raise SystemExit(run("validation.calibrate.command"))

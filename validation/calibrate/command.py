@@ -2,20 +2,17 @@
 
 import argparse
 import shlex
-import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
 from rich.table import Table
 
-from cases.errors import CaseError
 from cases.fields import FIELDS
 from cases.reading.calibration_file import Calibration, load_calibration
-from febio_io.errors import FebioError
-from solver.errors import SolverError
+from cases.shell.command import COMPLETE, concluded
+from cases.shell.terminal import page
 from validation.calibrate.fit import Fit, fit, misses
 from validation.calibrate.fitted_case import check_case, write_case
 from validation.calibrate.output import KEYS, RECORD, check_results, parameter_records, write_results
@@ -24,8 +21,6 @@ from validation.errors import ValidationError
 from validation.runs.cache import open_cache
 from validation.runs.variants import watching
 
-EXPECTED = (CaseError, SolverError, FebioError, ValidationError)
-WRONG_INPUT, INTERRUPTED = 2, 130
 PAGE_WIDTH = 130  # columns of the tables where there is no terminal
 MOST_ROWS = 20  # of the table of targets
 
@@ -89,9 +84,9 @@ def remarks(calibration: Calibration, wanted: Observed, found: Fit) -> list[str]
     return told
 
 
-def _arguments(arguments: Sequence[str]) -> argparse.Namespace:
+def arguments(argv: Sequence[str]) -> argparse.Namespace:
+    """Return what the command line states."""
     parser = argparse.ArgumentParser(
-        prog="python -m validation.calibrate",
         description="Fit numbers of a case by least squares to pressures or radii of the last cycle, or to a "
         "3D reference.",
         epilog="Exit status: 0 fitted; 2 wrong input, or targets that cannot be attained or do not "
@@ -110,7 +105,7 @@ def _arguments(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument(
         "--fresh", action="store_true", help="read the reference anew, whatever the cache has"
     )
-    return parser.parse_args(arguments)
+    return parser.parse_args(argv)
 
 
 def _refuse_a_result(case: Path, folder: Path) -> None:
@@ -118,36 +113,26 @@ def _refuse_a_result(case: Path, folder: Path) -> None:
         raise ValidationError(f"{case}: is a file of the result; choose another --case")
 
 
-def _interrupt(*_: object) -> None:
-    """Let a request to terminate clean up as Ctrl-C does."""
-    raise KeyboardInterrupt
-
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; return its exit status."""
-    stated = sys.argv[1:] if arguments is None else list(arguments)
-    chosen = _arguments(stated)
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0 fitted, 2 for a wrong input or targets that cannot be attained, 130 interrupted."""
+    stated = sys.argv[1:] if argv is None else list(argv)
+    chosen = arguments(stated)
     command = ["python", "-m", "validation.calibrate", *map(shlex.quote, stated)]
-    told = Console(stderr=True)
-    signal.signal(signal.SIGTERM, _interrupt)
-    try:
-        calibration = load_calibration(chosen.calibration)
-        folder = chosen.output or Path("results") / calibration.name
-        check_results(folder, calibration)
-        if chosen.case is not None:
-            check_case(chosen.case, calibration)
-            _refuse_a_result(chosen.case, folder)
-        wanted, found = calibrated(calibration, chosen.fresh)
-        write_results(folder, calibration, wanted, found, command)
-        if chosen.case is not None:  # last, so that the numbers are kept whatever has become of its folder
-            write_case(chosen.case, calibration, found.values)
-    except EXPECTED as error:
-        told.print(str(error), markup=False, highlight=False, soft_wrap=True)
-        return WRONG_INPUT
-    except KeyboardInterrupt:
-        told.print("interrupted; no result was written")
-        return INTERRUPTED
-    output = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
+    return concluded(lambda: _run(chosen, command), "interrupted; no result was written")
+
+
+def _run(chosen: argparse.Namespace, command: list[str]) -> int:
+    calibration = load_calibration(chosen.calibration)
+    folder = chosen.output or Path("results") / calibration.name
+    check_results(folder, calibration)
+    if chosen.case is not None:
+        check_case(chosen.case, calibration)
+        _refuse_a_result(chosen.case, folder)
+    wanted, found = calibrated(calibration, chosen.fresh)
+    write_results(folder, calibration, wanted, found, command)
+    if chosen.case is not None:  # last, so that the numbers are kept whatever has become of its folder
+        write_case(chosen.case, calibration, found.values)
+    output = page(PAGE_WIDTH)
     output.print(parameter_table(calibration, found))
     if len(wanted.names) <= MOST_ROWS:
         output.print(target_table(wanted, found))
@@ -155,4 +140,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
         output.print(line, highlight=False)
     written = f"{folder / RECORD}, {folder / KEYS}"
     output.print(f"results: {written}" + (f", {chosen.case}" if chosen.case else ""), soft_wrap=True)
-    return 0
+    return COMPLETE

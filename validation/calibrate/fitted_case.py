@@ -1,7 +1,6 @@
 """Fitted values in YAML: the keys alone, to be copied, and the case file with them."""
 
 import io
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import pairwise
@@ -16,6 +15,7 @@ from cases.errors import CaseError
 from cases.reading.calibration_file import Calibration
 from cases.reading.case_file import load_case_file
 from cases.reading.numeric_keys import numeric_keys
+from cases.shell.whole import beside, writing
 from validation.errors import ValidationError
 
 SAME = 1e-12  # relative difference of a value that was written and read
@@ -106,11 +106,9 @@ def check_case(path: Path, calibration: Calibration) -> None:
 
 
 def _refuse_what_is_there(path: Path, calibration: Calibration) -> None:
-    try:
+    with writing(path, ValidationError):
         require_none_read(path, calibration, "--case")
         written = not path.exists() or MARK in path.read_text(encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
     if not written:
         raise ValidationError(
             f"{path}: is there already, and was not written by a calibration; remove it or choose another "
@@ -154,17 +152,13 @@ def write_case(path: Path, calibration: Calibration, values: Floats) -> None:
 @contextmanager
 def _staged_case(path: Path, calibration: Calibration, values: Floats) -> Iterator[Path]:
     """Write the case file under a temporary name, and check it there."""
-    partial = path.with_name(f".{path.stem}.{os.getpid()}.yaml")
-    try:
-        partial.write_text(calibrated_text(calibration, values), encoding="utf-8")
-        _require_values(partial, calibration, values)
+    with writing(path, ValidationError), beside(path) as partial:
+        try:
+            partial.write_text(calibrated_text(calibration, values), encoding="utf-8")
+            _require_values(partial, calibration, values)
+        except CaseError as error:
+            raise ValidationError(_no_case(path, calibration, error, partial)) from error
         yield partial
-    except OSError as error:
-        raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
-    except CaseError as error:
-        raise ValidationError(_no_case(path, calibration, error, partial)) from error
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def _no_case(path: Path, calibration: Calibration, error: CaseError, partial: Path) -> str:

@@ -5,12 +5,13 @@ from typing import Any
 
 from cases.fields import FIELDS
 from cases.reading.calibration_file import Calibration
+from cases.shell.whole import write_text, writing
 from validation.calibrate.fit import Fit
 from validation.calibrate.fitted_case import require_none_read, snippet
 from validation.calibrate.targets import Observed
 from validation.errors import ValidationError
 from validation.metrics.statistics import rms
-from validation.runs.output import write_json, write_text
+from validation.runs.output import write_json
 from validation.runs.provenance import provenance
 
 RECORD, KEYS = "calibration.json", "calibration.yaml"
@@ -78,12 +79,10 @@ def check_results(folder: Path, calibration: Calibration) -> None:
     ValidationError
         If a result's file is one that the calibration reads, or lies there without the other one.
     """
-    try:
+    with writing(folder, ValidationError):
         for name in (RECORD, KEYS):
             require_none_read(folder / name, calibration, "--output")
         alone = (folder / KEYS).exists() and not (folder / RECORD).exists()
-    except OSError as error:
-        raise ValidationError(f"{folder}: cannot be written: {error.strerror or error}") from error
     if alone:
         raise ValidationError(
             f"{folder / KEYS}: is there already, and is no result of a calibration; remove it or choose "
@@ -101,9 +100,7 @@ def write_results(
     ValidationError
         If they cannot be written.
     """
-    try:
+    with writing(folder, ValidationError):
         folder.mkdir(parents=True, exist_ok=True)
         write_json(folder / RECORD, record_of(calibration, wanted, found, command))
         write_text(folder / KEYS, snippet(calibration, found.values))
-    except OSError as error:
-        raise ValidationError(f"{folder}: cannot be written: {error.strerror or error}") from error

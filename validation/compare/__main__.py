@@ -1,8 +1,6 @@
 """Run the comparison of a case: ``python -m validation.compare CASE.yaml``."""
 
-import sys
-
-from validation.compare.command import main
+from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(main())
+    raise SystemExit(run("validation.compare.command"))

@@ -1,179 +1,19 @@
-"""``python -m validation.compare CASE.yaml``: run the reduced model, read the reference, score, report."""
+"""``python -m validation.compare CASE.yaml``: what it is told, what it says, and its exit status."""
 
 import argparse
-import json
 import shlex
-import signal
 import sys
-from collections.abc import Mapping
-from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import xarray as xr
-
-from cases.arrays import Floats
-from cases.errors import CaseError
-from cases.reading.case_file import CaseFile, load_case_file
-from cases.results.comparison_file import PROFILE_ERROR_CURVE
-from cases.results.metric_row import MetricRow, Status
-from febio_io.errors import FebioError
-from solver.case.model import inlet_signal
-from solver.errors import SolverError
-from validation.compare.account import described
-from validation.compare.comparison import (
-    VariantRun,
-    at_common_instants,
-    attributes,
-    both_models,
-    check_variants,
-    without_fields,
-)
-from validation.compare.comparison_file import ComparisonFile, comparison_file
-from validation.compare.paraview import write_walls
-from validation.compare.rendering import load_reports, write_reports
-from validation.compare.side_by_side import write_side_by_side
-from validation.errors import ValidationError
-from validation.metrics import rows as metrics
-from validation.metrics.assumptions import assumption_rows
-from validation.metrics.bands import band_rows
-from validation.metrics.confidence import confidence_rows
-from validation.metrics.curved_section import curved_section_rows
-from validation.metrics.pooled_change import pooled_change_rows, without_rays
-from validation.metrics.profile_curves import error_curves, profile_rows
-from validation.metrics.rows import Models, models_of
-from validation.reference.generated import check_computed, check_stated
-from validation.runs.cache import Cache, open_cache
-from validation.runs.output import check_target, result_directory, write_json, write_metrics
-from validation.runs.variants import Watch, align_variants, run_variants, watching
-
-EXPECTED = (CaseError, SolverError, FebioError, ValidationError)
-VERDICTS: tuple[Status, ...] = ("OK", "FAIL", "MISSING")
-COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
+from cases.shell.interrupts import interrupts_deferred
 
 
-def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any]) -> list[MetricRow]:
-    """All rows of one variant, its bands' among them."""
-    cells = (attributes["compare_i"], attributes["compare_j"])
-    return [
-        *band_rows(models, run.case),
-        *metrics.pooled_rows(models),
-        *confidence_rows(models),
-        *metrics.cycle_rows(models),
-        *metrics.check_rows(models),
-        *metrics.value_rows(models, cells, attributes["compare_times_s"]),
-        *metrics.cycle_error_rows(models, cells),
-        *metrics.dominance_rows(models, cells),
-        *assumption_rows(models, attributes),
-        *curved_section_rows(models, attributes),
-        *profile_rows(models, attributes),
-        *metrics.plane_rows(models, run.reference.checks),
-        *metrics.inflow_rows(models, run.reference.checks, prescribed_inflow(run)),
-        *metrics.cost_rows(models, run.rom.description, run.reference.description),
-    ]
-
-
-def prescribed_inflow(run: VariantRun) -> Floats | None:
-    """Flow rate that the case prescribes at the 3D inlet, m³/s; None where there is none to compare."""
-    if "inlet_flow_rate" not in run.reference.checks:
-        return None
-    signal = inlet_signal(run.case)(run.reference.alignment.cycle_times)
-    if run.case.inlet.kind == "velocity":
-        return np.asarray(signal * run.reference.checks["inlet_area"].to_numpy())
-    return signal if run.case.inlet.kind == "flow" else None
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """All rows of a comparison, and what a user should see besides."""
-
-    rows: list[MetricRow]
-    warnings: list[str]
-
-    @property
-    def bands(self) -> list[MetricRow]:
-        """Rows that judge a declared band."""
-        return [row for row in self.rows if row.status]
-
-
-def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache | None = None) -> Outcome:
-    """Run one case file and leave its result in ``target``; see ``harness`` for what that holds.
-
-    Returns
-    -------
-    Outcome
-
-    Raises
-    ------
-    CaseError, SolverError, FebioError, ValidationError
-        For input that is wrong; ``target`` is then as it was.
-    """
-    check_stated(file)
-    check_variants(file.variants)
-    check_computed(file.path, file.variants)
-    with watching(cache) as watch, result_directory(target) as directory:
-        rows, runs, notes = _compared(file, directory, watch)
-        with watch.step("metrics"):
-            write_metrics(directory, metrics.to_frame(rows))
-        account = described(file, runs, watch.wall_times, command, [*watch.remarks, *notes])
-        write_json(directory / "provenance.json", account.written())
-        with watch.step("reports"):
-            write_reports(directory)
-    return Outcome(rows, [*watch.remarks, *account.warnings])
-
-
-def _compared(
-    file: CaseFile, directory: Path, watch: Watch
-) -> tuple[list[MetricRow], dict[str, VariantRun], list[str]]:
-    """Run all variants; leave comparison.nc. Returns all rows, the runs without their fields, and notes."""
-    alignments, notes = at_common_instants(file.variants, align_variants(file.variants))
-    times = alignments[next(iter(file.variants))].cycle_times
-    about = attributes(file, times)
-    rows: dict[str, list[MetricRow]] = {}
-    runs: dict[str, VariantRun] = {}
-    compared: dict[str, Models] = {}
-    writing: list[Future[None]] = []
-    with (
-        comparison_file(directory / "comparison.nc", list(file.variants), about) as stored,
-        ThreadPoolExecutor(max_workers=1) as writer,  # netCDF works outside the interpreter's lock
-    ):
-        for name, run in run_variants(file.variants, alignments, watch, load_reports):
-            both = both_models(run, times)
-            with watch.step("metrics"):
-                told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
-                models = models_of(file.name, name, both, about["period_s"], **told)
-                rows[name] = variant_rows(models, run, about)
-                compared[name] = without_rays(models)
-                both[PROFILE_ERROR_CURVE] = error_curves(models, about)
-            writing.append(writer.submit(_store, stored, name, both, watch))
-            with watch.step("files for ParaView"):
-                write_walls(directory, name, both)
-            runs[name] = without_fields(run)
-        for written in writing:
-            written.result()
-    ordered = [row for name in file.variants for row in rows[name]]
-    baselines = json.loads(about["baselines"])
-    changes = [*metrics.change_rows(ordered, baselines), *pooled_change_rows(compared, baselines)]
-    return ordered + changes, {name: runs[name] for name in file.variants}, notes
-
-
-def _store(stored: ComparisonFile, name: str, both: xr.Dataset, watch: Watch) -> None:
-    with watch.step("comparison.nc"):
-        stored.write(name, both)
-
-
-def summary(file: CaseFile, target: Path, bands: list[MetricRow]) -> str:
-    """One line for people."""
-    counts = {status: sum(row.status == status for row in bands) for status in VERDICTS}
-    verdict = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "none declared"
-    return f"{file.name}: bands: {verdict}; report: {target / 'report.html'}, {target / 'report.pdf'}"
-
-
-def _arguments(argv: list[str]) -> argparse.Namespace:
+def arguments(argv: Sequence[str]) -> argparse.Namespace:
+    """Return what the command line states."""
     parser = argparse.ArgumentParser(
-        prog="python -m validation.compare",
         description="Compare the 2D reduced-order model with a 3D reference and write a report.",
         epilog="Exit status: 0 complete; 1 a band fails or is missing (with --check); 2 wrong input.",
     )
@@ -191,58 +31,35 @@ def _arguments(argv: list[str]) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def targets(files: list[CaseFile], output: Path | None) -> list[Path]:
-    """Choose the result directory of each case.
-
-    Raises
-    ------
-    ValidationError
-        If two cases have one name, or a target must not be replaced.
-    """
-    names = [file.name for file in files]
-    if len(set(names)) < len(names):
-        raise ValidationError(f"case names must differ, found: {', '.join(names)}")
-    if output is not None and len(files) == 1:
-        found = [output]
-    else:
-        found = [(output or Path("results")) / name for name in names]
-    for target in found:
-        check_target(target)
-    return found
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0 complete, 1 with --check if a band does not hold, 2 wrong input, 130 interrupted."""
+    stated = sys.argv[1:] if argv is None else list(argv)
+    chosen = arguments(stated)
+    command = ["python", "-m", "validation.compare", *map(shlex.quote, stated)]
+    return concluded(lambda: _run(chosen, command), "interrupted; no result was written")
 
 
-def _interrupt(*_: object) -> None:
-    """Let a request to terminate clean up as Ctrl-C does."""
-    raise KeyboardInterrupt
+def _run(chosen: argparse.Namespace, command: list[str]) -> int:
+    with interrupts_deferred():
+        from cases.reading.case_file import load_case_file
+        from validation.compare.case import compare_case, summary, targets
+        from validation.compare.side_by_side import write_side_by_side
+        from validation.runs.cache import open_cache
 
-
-def main(argv: list[str] | None = None) -> int:
-    """Run the command; return its exit status."""
-    argv = sys.argv[1:] if argv is None else argv
-    arguments = _arguments(argv)
-    command = ["python", "-m", "validation.compare", *map(shlex.quote, argv)]
+    cache = open_cache(chosen.fresh)
+    files = [load_case_file(path) for path in chosen.cases]
+    places = targets(files, chosen.output)
+    rows: dict[str, Any] = {}
     broken = False
-    signal.signal(signal.SIGTERM, _interrupt)
-    try:
-        cache = open_cache(arguments.fresh)
-        files = [load_case_file(path) for path in arguments.cases]
-        places = targets(files, arguments.output)
-        rows: dict[str, list[MetricRow]] = {}
-        for file, target in zip(files, places, strict=True):
-            outcome = compare_case(file, target, command, cache)
-            rows[file.name] = outcome.rows
-            for warning in outcome.warnings:
-                print(f"warning: {warning}", file=sys.stderr)
-            bands = outcome.bands
-            broken |= any(row.status in ("FAIL", "MISSING") for row in bands)
-            print(summary(file, target, bands))
-        if len(files) > 1:
-            written = write_side_by_side(places[0].parent, rows)
-            print(f"{len(files)} cases side by side: {', '.join(map(str, written))}")
-    except EXPECTED as error:
-        print(error, file=sys.stderr)
-        return WRONG_INPUT
-    except KeyboardInterrupt:
-        print("interrupted; no result was written", file=sys.stderr)
-        return INTERRUPTED
-    return BAND_BROKEN if broken and arguments.check else COMPLETE
+    for file, target in zip(files, places, strict=True):
+        outcome = compare_case(file, target, command, cache)
+        rows[file.name] = outcome.rows
+        for warning in outcome.warnings:
+            print(f"warning: {warning}", file=sys.stderr)
+        bands = outcome.bands
+        broken |= any(row.status in ("FAIL", "MISSING") for row in bands)
+        print(summary(file, target, bands))
+    if len(files) > 1:
+        written = write_side_by_side(places[0].parent, rows)
+        print(f"{len(files)} cases side by side: {', '.join(map(str, written))}")
+    return BAND_BROKEN if broken and chosen.check else COMPLETE

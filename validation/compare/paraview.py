@@ -1,11 +1,6 @@
 """Both models' lumen wall over the cycle, with the cells' values, for ParaView: a VTKHDF file each."""
 
-import signal
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -19,6 +14,7 @@ from cases.arrays import Floats, Integers
 from cases.fields import CELL, FIELDS
 from cases.quantities import tabulated
 from cases.results.comparison_file import CALCIFIED, MODELS, WALL_STIFFNESS, variable
+from cases.shell.interrupts import interrupts_deferred
 from validation.errors import ValidationError
 
 
@@ -99,27 +95,6 @@ class _Wall(VTKPythonAlgorithmBase):
         return surface
 
 
-@contextmanager
-def _interrupts_later() -> Iterator[None]:
-    """Keep Ctrl-C and SIGTERM until VTK is done, which loses an exception raised where it calls back."""
-    if threading.current_thread() is not threading.main_thread():
-        yield  # interrupts go to the main thread only
-        return
-    caught: list[int] = []
-
-    def keep(number: int, _frame: FrameType | None) -> None:
-        caught.append(number)
-
-    before = {number: signal.signal(number, keep) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
-    if caught:
-        raise KeyboardInterrupt
-
-
 def write_walls(directory: Path, variant: str, both: xr.Dataset) -> None:
     """Write ``rom_<variant>.vtkhdf`` and ``reference_<variant>.vtkhdf``; a model without radii is left out.
 
@@ -137,7 +112,7 @@ def write_walls(directory: Path, variant: str, both: xr.Dataset) -> None:
         writer.SetInputConnection(source.GetOutputPort())
         writer.SetFileName(str(path))
         writer.SetWriteAllTimeSteps(True)
-        with _interrupts_later():
+        with interrupts_deferred():  # VTK would lose an exception raised where it calls back
             done = writer.Write()
         if not done or not path.is_file():
             raise ValidationError(f"{path.name}: cannot be written")

@@ -3,12 +3,14 @@
 from importlib import import_module
 from pathlib import Path
 
+from cases.shell.interrupts import interrupts_deferred
 from validation.errors import ValidationError
 
 
 def load_reports() -> None:
     """Load the package that draws, with Matplotlib and all it needs: about a second."""
-    import_module("reports")
+    with interrupts_deferred():
+        import_module("reports.build")
 
 
 def write_reports(directory: Path) -> None:
@@ -19,8 +21,8 @@ def write_reports(directory: Path) -> None:
     ValidationError
         If the directory is not a finished comparison.
     """
-    from reports import ReportError
-    from reports import write_reports as write
+    from reports.build import write_reports as write
+    from reports.errors import ReportError
 
     try:
         write(directory)

@@ -6,9 +6,9 @@ from pathlib import Path
 import pandas as pd
 
 from cases.results.metric_row import MetricRow
+from cases.shell.whole import write_text, writing
 from validation.errors import ValidationError
 from validation.metrics.rows import to_frame
-from validation.runs.output import write_text
 
 POOLED = ("rms_error", "bias", "bias_low", "bias_high", "scatter", "rms_difference", "change_rms", "cycle")
 LINE = ["variant", "quantity", "statistic", "unit"]
@@ -52,9 +52,7 @@ def write_side_by_side(folder: Path, cases: Mapping[str, Sequence[MetricRow]]) -
         "json": table.to_json(orient="records", indent=1, force_ascii=False, double_precision=15) + "\n",
     }
     paths = [folder / f"{STEM}.{suffix}" for suffix in contents]
-    try:
+    with writing(folder, ValidationError):
         for path, text in zip(paths, contents.values(), strict=True):
             write_text(path, text)
-    except OSError as error:
-        raise ValidationError(f"{folder}: cannot be written: {error.strerror or error}") from error
     return paths

@@ -1,8 +1,6 @@
 """Grid and step of the 2D side: ``python -m validation.converge CASE.yaml``."""
 
-import sys
-
-from validation.converge.command import main
+from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(main())
+    raise SystemExit(run("validation.converge.command"))

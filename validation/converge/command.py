@@ -1,33 +1,31 @@
 """``python -m validation.converge CASE.yaml``: what the 2D model's numbers owe to its grid and steps."""
 
 import argparse
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from rich.console import Console
-from rich.progress import Progress
 from rich.table import Table
 
-from cases.errors import CaseError
 from cases.fields import FIELDS
 from cases.reading.case_file import CaseFile, load_case_file
+from cases.shell.command import COMPLETE, concluded
+from cases.shell.terminal import page, progress
+from cases.shell.whole import write_text, writing
 from reports.figures.plots import convergence_plots
-from solver.errors import SolverError
 from validation.converge.refinement import STUDIES, Refined, levels, refined
 from validation.errors import ValidationError
-from validation.runs.output import write_json, write_text
+from validation.runs.output import write_json
 
-WRONG_INPUT, INTERRUPTED = 2, 130
 LEVELS = ("coarse", "own", "fine")
 PAGE_WIDTH = 130  # columns of the table where there is no terminal
 
 
-def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Return what the command line states."""
     parser = argparse.ArgumentParser(
-        prog="python -m validation.converge",
         description="Run the 2D side of a case on three grids and with three time steps; report observed "
         "orders, Richardson extrapolates and grid convergence indices.",
     )
@@ -36,7 +34,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--output", type=Path, metavar="DIR", help="folder for results, default results/NAME-convergence"
     )
-    return parser.parse_args(arguments)
+    return parser.parse_args(argv)
 
 
 def _chosen(file: CaseFile, names: list[str] | None) -> list[str]:
@@ -46,7 +44,7 @@ def _chosen(file: CaseFile, names: list[str] | None) -> list[str]:
     return names or list(file.variants)
 
 
-def study(file: CaseFile, names: list[str], console: Console) -> list[Refined]:
+def study(file: CaseFile, names: list[str]) -> list[Refined]:
     """Refine grid and time step of some variants; progress is shown on a terminal.
 
     Raises
@@ -58,7 +56,7 @@ def study(file: CaseFile, names: list[str], console: Console) -> list[Refined]:
     for name, what in runs:
         levels(file.variants[name], what)
     found = []
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as display:
+    with progress() as display:
         task = display.add_task("", total=len(runs))
         for name, what in runs:
             display.update(task, description=f"{name}: {what}")
@@ -114,29 +112,23 @@ def draw(found: Sequence[Refined], path: Path) -> None:
     convergence_plots(numbers, path)
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; return its exit status."""
-    chosen = _arguments(arguments)
-    console = Console(stderr=True)
-    try:
-        file = load_case_file(chosen.case)
-        folder = chosen.output or Path("results") / f"{file.name}-convergence"
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0, 2 for a wrong input or a run that fails, 130 interrupted."""
+    chosen = arguments(argv)
+    return concluded(lambda: _run(chosen), "interrupted; no result was written")
+
+
+def _run(chosen: argparse.Namespace) -> int:
+    file = load_case_file(chosen.case)
+    folder = chosen.output or Path("results") / f"{file.name}-convergence"
+    with writing(folder, ValidationError):
         folder.mkdir(parents=True, exist_ok=True)
-        found = study(file, _chosen(file, chosen.variant), console)
+        found = study(file, _chosen(file, chosen.variant))
         records = [number.record() for number in found]
         write_json(folder / "convergence.json", records)
         write_text(folder / "convergence.csv", pd.DataFrame(records).to_csv(index=False))
         draw(found, folder / "convergence.svg")
-    except (CaseError, SolverError, ValidationError) as error:
-        console.print(str(error), markup=False, highlight=False, soft_wrap=True)
-        return WRONG_INPUT
-    except OSError as error:
-        console.print(f"{folder}: cannot be written: {error.strerror or error}", markup=False, soft_wrap=True)
-        return WRONG_INPUT
-    except KeyboardInterrupt:
-        console.print("interrupted; no result was written")
-        return INTERRUPTED
-    output = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
+    output = page(PAGE_WIDTH)
     print_table(output, found)
     output.print(f"results in {folder}: convergence.json, .csv and .svg")
-    return 0
+    return COMPLETE

@@ -4,8 +4,6 @@ import fnmatch
 import json
 import math
 import os
-import shutil
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,6 +11,7 @@ from typing import Any
 
 import pandas as pd
 
+from cases.shell.whole import write_text, write_whole_folder, writing
 from validation.errors import ValidationError
 
 MARK = "provenance.json"  # every finished result has one
@@ -79,50 +78,9 @@ def result_directory(target: Path) -> Iterator[Path]:
         As :func:`check_target`, or if the directory cannot be made or put in place.
     """
     check_target(target)
-    place = target.resolve()
-    made = [folder for folder in place.parents if not folder.exists()]
-    try:
-        place.parent.mkdir(parents=True, exist_ok=True)
-        partial = Path(tempfile.mkdtemp(prefix=".comparison.", suffix=".part", dir=place.parent))
-        partial.chmod(0o755)
-    except OSError as error:
-        raise ValidationError(f"{target}: cannot be written: {error.strerror or error}") from error
-    try:
+    with writing(target, ValidationError), write_whole_folder(target.resolve()) as partial:
         yield partial
         check_target(target)  # it may have changed meanwhile
-        _take_place(partial, place)
-    except OSError as error:
-        raise ValidationError(f"{target}: cannot be written: {error.strerror or error}") from error
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)
-        for folder in made:
-            if folder.is_dir() and not any(folder.iterdir()):
-                folder.rmdir()
-
-
-def _take_place(partial: Path, place: Path) -> None:
-    """Rename the complete directory into place; an older result goes only then."""
-    if not place.exists():
-        partial.rename(place)
-        return
-    old = partial.with_suffix(".old")
-    place.rename(old)
-    try:
-        partial.rename(place)
-    except BaseException:
-        old.rename(place)
-        raise
-    shutil.rmtree(old)
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a file whole or not at all, UTF-8."""
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def write_json(path: Path, content: Any) -> None:

@@ -8,10 +8,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from rich.console import Console
 from rich.progress import Progress as Display
 
 from cases.sections.case import Case
+from cases.shell.terminal import progress
 from solver.case.model import grid_of
 from solver.errors import SolverError
 from validation.compare.comparison import VariantRun
@@ -61,8 +61,7 @@ class Watch:
 @contextmanager
 def watching(cache: Cache | None = None) -> Iterator[Watch]:
     """Show progress on standard error if it is a terminal, nothing otherwise."""
-    console = Console(stderr=True)
-    with Display(console=console, transient=True, disable=not console.is_terminal) as display:
+    with progress() as display:
         yield Watch(display, cache)
 
 

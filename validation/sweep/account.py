@@ -5,11 +5,13 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from cases.results.sweep import DrawnDesign, SampleCounts, SobolIndex, State, SweepAccount
+from cases.shell.whole import write_text, writing
+from validation.errors import ValidationError
 from validation.runs.cached import key_of
-from validation.runs.output import write_json, write_text
+from validation.runs.output import write_json
 from validation.runs.provenance import git_commit, installed, shown_path
 from validation.sweep import outputs, parameters
-from validation.sweep.folder import ACCOUNT, STUDY, Counts, writing
+from validation.sweep.folder import ACCOUNT, STUDY, Counts
 from validation.sweep.judging import STATES
 from validation.sweep.study import Study
 
@@ -72,7 +74,7 @@ def write_account(
     """
     progress = SampleCounts(done=counts.done, failed=counts.failed, total=account.design.samples)
     found = {"state": state, "counts": progress, "sensitivity": sensitivity}
-    with writing(folder / ACCOUNT):
+    with writing(folder / ACCOUNT, ValidationError):
         write_json(folder / ACCOUNT, account.model_copy(update=found).written())
 
 
@@ -84,5 +86,5 @@ def write_study(folder: Path, study: Study) -> None:
     ValidationError
         If it cannot be written.
     """
-    with writing(folder / STUDY):
+    with writing(folder / STUDY, ValidationError):
         write_text(folder / STUDY, study.text)

@@ -1,7 +1,6 @@
 """The folder of a sweep: parts of a Parquet dataset, each written whole, and one writer at a time."""
 
 import json
-import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ import locket
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from cases.shell.whole import write_whole, writing
 from validation.errors import ValidationError
 from validation.sweep.chunk import FAILED, Record
 
@@ -108,21 +108,6 @@ def cleared(folder: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-@contextmanager
-def writing(path: Path) -> Iterator[None]:
-    """Say of what cannot be written which file it is.
-
-    Raises
-    ------
-    ValidationError
-        In place of an OSError.
-    """
-    try:
-        yield
-    except OSError as error:
-        raise ValidationError(f"{path}: cannot be written: {error.strerror or error}") from error
-
-
 def part_path(folder: Path, number: int) -> Path:
     """Return where the samples of one chunk lie."""
     return folder / SAMPLES / f"part-{number:06d}.parquet"
@@ -136,14 +121,9 @@ def write_part(path: Path, records: Sequence[Record], schema: pa.Schema) -> Coun
     ValidationError
         If it cannot be written.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
     table = pa.Table.from_pylist(list(records), schema)
-    with writing(path):
-        try:
-            pq.write_table(table, partial, write_page_checksum=True)
-            partial.replace(path)
-        finally:
-            partial.unlink(missing_ok=True)
+    with writing(path, ValidationError), write_whole(path) as partial:
+        pq.write_table(table, partial, write_page_checksum=True)
     return Counts(len(records), sum(record["status"] == FAILED for record in records))
 
 
@@ -165,7 +145,7 @@ def parts_present(folder: Path, chunks: Sequence[range], schema: pa.Schema) -> d
         If something else lies among the parts.
     """
     place = folder / SAMPLES
-    with writing(place):
+    with writing(place, ValidationError):
         place.mkdir(exist_ok=True)
     for path in place.glob(".*.part"):
         path.unlink(missing_ok=True)

@@ -1,16 +1,15 @@
 """One sweep from a study to its folder: what is recorded already stays, what is missing is run."""
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pyarrow as pa
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, TimeRemainingColumn
 
 from cases.results.sweep import SweepAccount
+from cases.shell.terminal import progress
 from validation.errors import ValidationError
 from validation.reference.generated import check_computed
 from validation.runs.cache import open_cache
@@ -167,27 +166,13 @@ def _run_missing(
     plan: Plan,
     tell: Tell,
 ) -> None:
-    with _progress(len(samples), keeper) as update:
+    columns = ("{task.description}", BarColumn(), MofNCompleteColumn(), "{task.fields[failed]} failed")
+    with progress(*columns, TimeRemainingColumn()) as display:
+        task = display.add_task(
+            "samples", total=len(samples), completed=keeper.counts.done, failed=keeper.counts.failed
+        )
         blocks = ((number, samples.block(chunks[number])) for number in missing)
         with connected(where.scheduler, where.workers, tell) as client:
             for number, records in computed(client, blocks, plan):
                 keeper.keep(number, records)
-                update()
-
-
-@contextmanager
-def _progress(total: int, keeper: _Keeper) -> Iterator[Callable[[], None]]:
-    """Show on a terminal how many samples are recorded and how many of them failed."""
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("{task.fields[failed]} failed"),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as display:
-        task = display.add_task(
-            "samples", total=total, completed=keeper.counts.done, failed=keeper.counts.failed
-        )
-        yield lambda: display.update(task, completed=keeper.counts.done, failed=keeper.counts.failed)
+                display.update(task, completed=keeper.counts.done, failed=keeper.counts.failed)

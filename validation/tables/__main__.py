@@ -1,8 +1,6 @@
 """The thesis's tables, computed again: ``python -m validation.tables``."""
 
-import sys
-
-from validation.tables.command import main
+from cases.shell.command import run
 
 if __name__ == "__main__":
-    sys.exit(main())
+    raise SystemExit(run("validation.tables.command"))

@@ -1,14 +1,12 @@
 """``python -m validation.tables``: recompute the thesis's tables with its own scheme and compare."""
 
 import argparse
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import Progress
-
+from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
+from cases.shell.terminal import page, progress
 from solver.errors import RunFailure
 from validation.tables import (
     pulsatile_tables,
@@ -37,14 +35,15 @@ EXPERIMENTS: dict[str, Experiment] = {
 PAGE_WIDTH = 110  # columns of the report where there is no terminal
 
 
-def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m validation.tables", description=__doc__)
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Return what the command line states."""
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(EXPERIMENTS)}; default: all")
     parser.add_argument("--quick", action="store_true", help="a subset that takes less than a minute")
     parser.add_argument(
         "--output", type=Path, default=Path("results/tables"), help="folder for results, default %(default)s"
     )
-    chosen = parser.parse_args(arguments)
+    chosen = parser.parse_args(argv)
     unknown = [name for name in chosen.names if name not in EXPERIMENTS]
     if unknown:
         parser.error(f"unknown table {', '.join(unknown)}; allowed: {', '.join(EXPERIMENTS)}")
@@ -66,46 +65,42 @@ def _chosen_entries(experiments: Sequence[Experiment], quick: bool) -> list[Entr
     return list(entries.values())
 
 
-def _compute(
-    entries: Sequence[Entry], store: Store, console: Console
-) -> tuple[dict[str, Result], dict[str, float], int]:
+def _compute(entries: Sequence[Entry], store: Store) -> tuple[dict[str, Result], dict[str, float], int]:
     """Results and CPU seconds by entry, from the store where it has them; and how many runs failed."""
     results: dict[str, Result] = {}
     cpu: dict[str, float] = {}
     failures = 0
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("", total=len(entries))
+    with progress() as display:
+        task = display.add_task("", total=len(entries))
         for entry in entries:
-            progress.update(task, description=entry.name)
+            display.update(task, description=entry.name)
             kept = store.get(entry.name)
             if kept is None:
                 begin = time.process_time()
                 try:
                     result = entry.compute()
                 except RunFailure as failure:
-                    console.print(f"{entry.name}: {failure}")
+                    display.console.print(f"{entry.name}: {failure}")
                     failures += 1
                     continue
                 kept = result, time.process_time() - begin
                 store.put(entry.name, *kept)
             results[entry.name], cpu[entry.name] = kept
-            progress.advance(task)
+            display.advance(task)
     return results, cpu, failures
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns its exit status: 1 if a tolerance is missed or a run fails."""
-    chosen = _arguments(arguments)
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0, 1 if a tolerance is missed or a run fails, 2 for a wrong input, 130 interrupted."""
+    chosen = arguments(argv)
+    kept = f"interrupted; finished results are kept in {chosen.output}"
+    return concluded(lambda: _run(chosen), kept)
+
+
+def _run(chosen: argparse.Namespace) -> int:
     experiments = [EXPERIMENTS[name] for name in chosen.names or EXPERIMENTS]
-    store = Store(chosen.output)
-    try:
-        results, cpu, failures = _compute(
-            _chosen_entries(experiments, chosen.quick), store, Console(stderr=True)
-        )
-    except KeyboardInterrupt:
-        print(f"interrupted; finished results are kept in {chosen.output}", file=sys.stderr)
-        return 130
-    console = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
+    results, cpu, failures = _compute(_chosen_entries(experiments, chosen.quick), Store(chosen.output))
+    console = page(PAGE_WIDTH)
     rows = {}
     for experiment in experiments:
         if chosen.quick and not any(entry.quick for entry in experiment.entries):
@@ -123,4 +118,4 @@ def main(arguments: Sequence[str] | None = None) -> int:
         f"{len(every) - missed} of {len(every)} tolerances met; "
         f"{sum(cpu.values()):.1f} s of computation; results in {chosen.output}"
     )
-    return 1 if missed or failures else 0
+    return BAND_BROKEN if missed or failures else COMPLETE

@@ -12,7 +12,7 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from validation.runs.output import write_text
+from cases.shell.whole import write_text
 from validation.runs.sources import code_digest
 from validation.tables.experiment import Check, Experiment
 

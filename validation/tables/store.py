@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from validation.runs.output import write_text
+from cases.shell.whole import write_text
 from validation.runs.sources import code_digest
 from validation.tables.experiment import Result
 

@@ -18,17 +18,19 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from cases.errors import CaseError
 from cases.reading.case_file import CaseFile, load_case_file
 from cases.sections.case import Case
+from cases.shell.command import COMPLETE, concluded
+from cases.shell.terminal import page
+from cases.shell.whole import write_text, writing
 from solver.case.godunov import THREADS
 from solver.case.model import model_of
 from solver.case.run import walk
 from solver.errors import SolverError
-from validation.runs.output import write_text
+from validation.errors import ValidationError
 from validation.runs.provenance import provenance
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 CASE = ROOT / "benchmarks" / "thesis.yaml"
 RESULT = ROOT / "benchmarks" / "solver_speed.json"
 QUICK_STEPS = 4000  # of the explicit scheme
@@ -205,14 +207,15 @@ def result_of(rows: Sequence[Timing], path: Path, command: list[str]) -> dict[st
     return {**provenance(path, [], command), "rows": [asdict(row) for row in rows]}
 
 
-def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m validation.benchmark", description=__doc__)
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Return what the command line states."""
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repeat", type=int, default=5, help="repetitions, default %(default)s")
     parser.add_argument(
         "--quick", action="store_true", help=f"{QUICK_STEPS} steps of scheme godunov, extrapolated to all"
     )
     parser.add_argument("--output", type=Path, default=RESULT, help="JSON file, default %(default)s")
-    chosen = parser.parse_args(arguments)
+    chosen = parser.parse_args(argv)
     if chosen.repeat < 1:
         parser.error(f"--repeat {chosen.repeat}; allowed: 1 or more")
     if not chosen.output.absolute().parent.is_dir():
@@ -220,31 +223,22 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     return chosen
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns its exit status."""
-    chosen = _arguments(arguments)
-    told = Console(stderr=True)
-    command = ["python", "-m", "validation.benchmark", *(sys.argv[1:] if arguments is None else arguments)]
-    try:
-        with told.status("") as status:
-            rows = measure(CASE, chosen.repeat, chosen.quick, status.update)
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0, 2 for a wrong input or a run that fails, 130 interrupted."""
+    stated = sys.argv[1:] if argv is None else argv
+    chosen = arguments(stated)
+    command = ["python", "-m", "validation.benchmark", *stated]
+    return concluded(lambda: _run(chosen, command), "interrupted; nothing was written")
+
+
+def _run(chosen: argparse.Namespace, command: list[str]) -> int:
+    with Console(stderr=True).status("") as status:
+        rows = measure(CASE, chosen.repeat, chosen.quick, status.update)
+    with writing(chosen.output, ValidationError):
         write_text(chosen.output, json.dumps(result_of(rows, CASE, command), indent=1) + "\n")
-    except (CaseError, SolverError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    except OSError as error:
-        print(f"{chosen.output}: cannot be written: {error.strerror or error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print("interrupted; nothing was written", file=sys.stderr)
-        return 130
-    console = Console(width=None if sys.stdout.isatty() else PAGE_WIDTH)
+    console = page(PAGE_WIDTH)
     console.print(table_of(rows))
     for row in rows:
         if row.extrapolated:
             console.print(f"≈ {row.name}: extrapolated from {row.wall_s[0]:.3g} s to all {row.steps} steps")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    return COMPLETE

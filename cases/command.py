@@ -1,0 +1,61 @@
+"""Check case files, or print their JSON schema: `python -m cases FILE…`, `python -m cases --schema`."""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+
+from cases.errors import CaseError
+from cases.reading.case_file import CaseFile, load_case_file
+from cases.reading.json_schema import case_file_schema
+from cases.sections.case import Case
+from cases.shell.command import COMPLETE, WRONG_INPUT, concluded
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit status: 0, or 2 where a file is wrong."""
+    chosen = arguments(argv)
+    return concluded(lambda: _run(chosen))
+
+
+def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
+    """Return what the command line states."""
+    parser = argparse.ArgumentParser(description="Check case files, or print their JSON schema.")
+    parser.add_argument("files", nargs="*", metavar="FILE", help="a case file (.yaml)")
+    parser.add_argument("--schema", action="store_true", help="print the JSON schema of case files")
+    options = parser.parse_args(argv)
+    if options.schema == bool(options.files):
+        parser.error("state either case files or --schema")
+    return options
+
+
+def _run(options: argparse.Namespace) -> int:
+    if options.schema:
+        print(json.dumps(case_file_schema(), indent=2))
+        return COMPLETE
+    status = COMPLETE
+    for file in options.files:
+        try:
+            print_summary(load_case_file(file))
+        except CaseError as error:
+            print(error, file=sys.stderr)
+            status = WRONG_INPUT
+    return status
+
+
+def print_summary(file: CaseFile) -> None:
+    """Print one line for each variant of a file."""
+    for name, case in file.variants.items():
+        print(f"{file.path}: {name}: {summary(case)}")
+
+
+def summary(case: Case) -> str:
+    """Describe a case in a line."""
+    solver, bands = case.solver, len(case.compare.bands)
+    files = () if case.reference is None else case.reference.files
+    reference = f"reference {', '.join(path.name for path in files)}" if files else "no reference"
+    return (
+        f"calcification {case.calcification.pattern}, {solver.n_x} x {solver.n_phi} cells, "
+        f"{solver.cycles} cycles of {case.inlet.period:g} s, {reference}, "
+        f"{bands} {'band' if bands == 1 else 'bands'}"
+    )

@@ -1,0 +1,1 @@
+"""What all commands share: how they start and end, what they show meanwhile, and files written whole."""

@@ -1,0 +1,181 @@
+"""One case: run the reduced model, read the reference, score, report."""
+
+import json
+from collections.abc import Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cases.arrays import Floats
+from cases.reading.case_file import CaseFile
+from cases.results.comparison_file import PROFILE_ERROR_CURVE
+from cases.results.metric_row import MetricRow, Status
+from solver.case.model import inlet_signal
+from validation.compare.account import described
+from validation.compare.comparison import (
+    VariantRun,
+    at_common_instants,
+    attributes,
+    both_models,
+    check_variants,
+    without_fields,
+)
+from validation.compare.comparison_file import ComparisonFile, comparison_file
+from validation.compare.paraview import write_walls
+from validation.compare.rendering import load_reports, write_reports
+from validation.errors import ValidationError
+from validation.metrics import rows as metrics
+from validation.metrics.assumptions import assumption_rows
+from validation.metrics.bands import band_rows
+from validation.metrics.confidence import confidence_rows
+from validation.metrics.curved_section import curved_section_rows
+from validation.metrics.pooled_change import pooled_change_rows, without_rays
+from validation.metrics.profile_curves import error_curves, profile_rows
+from validation.metrics.rows import Models, models_of
+from validation.reference.generated import check_computed, check_stated
+from validation.runs.cache import Cache
+from validation.runs.output import check_target, result_directory, write_json, write_metrics
+from validation.runs.variants import Watch, align_variants, run_variants, watching
+
+VERDICTS: tuple[Status, ...] = ("OK", "FAIL", "MISSING")
+
+
+def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any]) -> list[MetricRow]:
+    """All rows of one variant, its bands' among them."""
+    cells = (attributes["compare_i"], attributes["compare_j"])
+    return [
+        *band_rows(models, run.case),
+        *metrics.pooled_rows(models),
+        *confidence_rows(models),
+        *metrics.cycle_rows(models),
+        *metrics.check_rows(models),
+        *metrics.value_rows(models, cells, attributes["compare_times_s"]),
+        *metrics.cycle_error_rows(models, cells),
+        *metrics.dominance_rows(models, cells),
+        *assumption_rows(models, attributes),
+        *curved_section_rows(models, attributes),
+        *profile_rows(models, attributes),
+        *metrics.plane_rows(models, run.reference.checks),
+        *metrics.inflow_rows(models, run.reference.checks, prescribed_inflow(run)),
+        *metrics.cost_rows(models, run.rom.description, run.reference.description),
+    ]
+
+
+def prescribed_inflow(run: VariantRun) -> Floats | None:
+    """Flow rate that the case prescribes at the 3D inlet, m³/s; None where there is none to compare."""
+    if "inlet_flow_rate" not in run.reference.checks:
+        return None
+    signal = inlet_signal(run.case)(run.reference.alignment.cycle_times)
+    if run.case.inlet.kind == "velocity":
+        return np.asarray(signal * run.reference.checks["inlet_area"].to_numpy())
+    return signal if run.case.inlet.kind == "flow" else None
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """All rows of a comparison, and what a user should see besides."""
+
+    rows: list[MetricRow]
+    warnings: list[str]
+
+    @property
+    def bands(self) -> list[MetricRow]:
+        """Rows that judge a declared band."""
+        return [row for row in self.rows if row.status]
+
+
+def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache | None = None) -> Outcome:
+    """Run one case file and leave its result in ``target``; see ``harness`` for what that holds.
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    CaseError, SolverError, FebioError, ValidationError
+        For input that is wrong; ``target`` is then as it was.
+    """
+    check_stated(file)
+    check_variants(file.variants)
+    check_computed(file.path, file.variants)
+    with watching(cache) as watch, result_directory(target) as directory:
+        rows, runs, notes = _compared(file, directory, watch)
+        with watch.step("metrics"):
+            write_metrics(directory, metrics.to_frame(rows))
+        account = described(file, runs, watch.wall_times, command, [*watch.remarks, *notes])
+        write_json(directory / "provenance.json", account.written())
+        with watch.step("reports"):
+            write_reports(directory)
+    return Outcome(rows, [*watch.remarks, *account.warnings])
+
+
+def _compared(
+    file: CaseFile, directory: Path, watch: Watch
+) -> tuple[list[MetricRow], dict[str, VariantRun], list[str]]:
+    """Run all variants; leave comparison.nc. Returns all rows, the runs without their fields, and notes."""
+    alignments, notes = at_common_instants(file.variants, align_variants(file.variants))
+    times = alignments[next(iter(file.variants))].cycle_times
+    about = attributes(file, times)
+    rows: dict[str, list[MetricRow]] = {}
+    runs: dict[str, VariantRun] = {}
+    compared: dict[str, Models] = {}
+    writing: list[Future[None]] = []
+    with (
+        comparison_file(directory / "comparison.nc", list(file.variants), about) as stored,
+        ThreadPoolExecutor(max_workers=1) as writer,  # netCDF works outside the interpreter's lock
+    ):
+        for name, run in run_variants(file.variants, alignments, watch, load_reports):
+            both = both_models(run, times)
+            with watch.step("metrics"):
+                told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
+                models = models_of(file.name, name, both, about["period_s"], **told)
+                rows[name] = variant_rows(models, run, about)
+                compared[name] = without_rays(models)
+                both[PROFILE_ERROR_CURVE] = error_curves(models, about)
+            writing.append(writer.submit(_store, stored, name, both, watch))
+            with watch.step("files for ParaView"):
+                write_walls(directory, name, both)
+            runs[name] = without_fields(run)
+        for written in writing:
+            written.result()
+    ordered = [row for name in file.variants for row in rows[name]]
+    baselines = json.loads(about["baselines"])
+    changes = [*metrics.change_rows(ordered, baselines), *pooled_change_rows(compared, baselines)]
+    return ordered + changes, {name: runs[name] for name in file.variants}, notes
+
+
+def _store(stored: ComparisonFile, name: str, both: xr.Dataset, watch: Watch) -> None:
+    with watch.step("comparison.nc"):
+        stored.write(name, both)
+
+
+def targets(files: list[CaseFile], output: Path | None) -> list[Path]:
+    """Choose the result directory of each case.
+
+    Raises
+    ------
+    ValidationError
+        If two cases have one name, or a target must not be replaced.
+    """
+    names = [file.name for file in files]
+    if len(set(names)) < len(names):
+        raise ValidationError(f"case names must differ, found: {', '.join(names)}")
+    if output is not None and len(files) == 1:
+        found = [output]
+    else:
+        found = [(output or Path("results")) / name for name in names]
+    for target in found:
+        check_target(target)
+    return found
+
+
+def summary(file: CaseFile, target: Path, bands: list[MetricRow]) -> str:
+    """One line for people."""
+    counts = {status: sum(row.status == status for row in bands) for status in VERDICTS}
+    verdict = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "none declared"
+    return f"{file.name}: bands: {verdict}; report: {target / 'report.html'}, {target / 'report.pdf'}"
