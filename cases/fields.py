@@ -6,7 +6,7 @@ both models have says here how it is compared: names in bands, rows of metrics a
 
 from dataclasses import dataclass
 
-from cases.statistics import JUDGED
+from cases.statistics import JUDGED, OF_POSITIVE
 
 CELL = ("time", "x", "phi")
 SECTION = ("time", "x")
@@ -34,7 +34,7 @@ class Compared:
     reads: tuple[str, ...] = ()
     tabulated: bool = True
     pooled: bool = True
-    statistics: tuple[str, ...] = tuple(JUDGED)
+    statistics: tuple[str, ...] = OF_POSITIVE
 
 
 @dataclass(frozen=True)
@@ -74,15 +74,19 @@ def _table(*fields: Field) -> dict[str, Field]:
 
 
 OF_MODELS = Compared()  # fields of both models, in all tables
-OF_BANDS = Compared(tabulated=False, pooled=False)
+OF_FLOW = Compared(statistics=tuple(JUDGED))  # what may pass zero
+OF_BANDS = Compared(tabulated=False, pooled=False, statistics=tuple(JUDGED))
+OF_BOTH = Compared(reads=("axis_velocity",), tabulated=False, pooled=False, statistics=tuple(JUDGED))
 OF_PRESSURE, OF_RADIUS = Compared(reads=("section_pressure",)), Compared(reads=("radius",))
 
 FIELDS = _table(
     Field("pressure", "P", "pressure", "Pa", "kPa", 1e-3, CELL, OF_MODELS),
     Field("radius", "R", "lumen radius", "m", "mm", 1e3, CELL, OF_MODELS),
-    Field("mean_velocity", "u", "mean velocity along the ray", "m s-1", "cm/s", 1e2, CELL, OF_MODELS),
-    Field("sector_flow_rate", "q_φ", "flow rate through one sector", "m3 s-1", "cm³/s", 1e6, CELL, OF_MODELS),
+    Field("mean_velocity", "u", "mean velocity along the ray", "m s-1", "cm/s", 1e2, CELL, OF_FLOW),
+    Field("sector_flow_rate", "q_φ", "flow rate through one sector", "m3 s-1", "cm³/s", 1e6, CELL, OF_FLOW),
     Field("profile_exponent", "γ", "velocity-profile exponent", "1", "1", 1.0, CELL, OF_MODELS),
+    Field("axis_velocity", "D", "velocity on the axis", "m s-1", "cm/s", 1e2, SECTION, OF_BOTH),
+    Field("profile_bend", "B", "second mode of the velocity profile", "m s-1", "cm/s", 1e2, CELL),
     Field(
         "sector_flow_share",
         "q_φ/q̄_φ",
@@ -95,7 +99,7 @@ FIELDS = _table(
     ),
     Field("azimuthal_flux", "W", "azimuthal flux 2∫v_φ dr", "m2 s-1", "cm²/s", 1e4, CELL),
     Field(
-        "section_flow_rate", "q", "flow rate through the section", "m3 s-1", "cm³/s", 1e6, SECTION, OF_MODELS
+        "section_flow_rate", "q", "flow rate through the section", "m3 s-1", "cm³/s", 1e6, SECTION, OF_FLOW
     ),
     Field("section_pressure", "P̄", "mean pressure over the section", "Pa", "kPa", 1e-3, SECTION, OF_MODELS),
     Field(
@@ -110,6 +114,7 @@ FIELDS = _table(
     Field("axial_velocity", "v_x", "axial velocity", "m s-1", "cm/s", 1e2, RAY, OF_BANDS),
     Field("radial_velocity", "v_r", "radial velocity", "m s-1", "cm/s", 1e2, RAY),
     Field("azimuthal_velocity", "v_φ", "azimuthal velocity", "m s-1", "cm/s", 1e2, RAY),
+    Field("two_mode_error", "ε_DB", "relative error of the closest two modes", "1", "%", 1e2, CELL),
     Field("profile_error", "ε_γ", "relative error of the closest profile", "1", "%", 1e2, CELL),
     Field("wall_stiffness", "β", "wall stiffness", "Pa m", "N/m", 1.0, ("x", "phi")),
     Field("systolic_pressure", "P_sys", "systolic pressure", "Pa", "kPa", 1e-3, (), OF_PRESSURE),

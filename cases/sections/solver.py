@@ -1,9 +1,9 @@
 """The numerical solution: scheme, grid, time step."""
 
 from types import MappingProxyType
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Tag, ValidationInfo, field_validator
+from pydantic import Tag, ValidationInfo, field_validator, model_validator
 
 from cases.sections.base import Section
 from cases.values.kinds import (
@@ -24,7 +24,9 @@ MOST_STEPS = MappingProxyType({"semi_implicit": 10_000_000, "godunov": 100_000_0
 MOST_STATES = 100_000
 RESOLVED_PER_CYCLE = 50  # saved states with which powers are integrated over time
 
-Closure = Literal["average", "maximum", "least_squares"]
+Closure = Literal["average", "maximum", "least_squares", "mean", "axis_momentum"]
+CLOSURES_OF = MappingProxyType({"power": ("average",), "two_mode": ("mean", "axis_momentum")})
+Profile = Literal["power", "two_mode"]
 Start = Literal["steady", "rest"]
 PressureOf = Literal["row", "section"]
 Limiter = Literal["van_leer", "superbee", "minmod", "upwind", "lax_wendroff"]
@@ -70,7 +72,7 @@ class SolverSettings(Section):
     cycles : int
         Number of cycles; results are taken from the last one.
     closure : str
-        How the velocity profile closes the equations.
+        How the velocity profile closes the equations; each scheme and profile has its own.
     start : str
         ``steady``: from the steady state of the boundary values at t = 0; ``rest``: from blood at rest. Where
         none is stated, a `Case` sets rest if a boundary has a ramp, or the outlet is non-reflecting.
@@ -120,19 +122,47 @@ class SemiImplicitSolver(SolverSettings):
     pressure : str
         What has a pressure of its own: each ``row`` of a section (the thesis's model), or the ``section``,
         whose rows then exchange blood.
+    profile : str
+        Family of velocity profiles: ``power``, the thesis's u (γ+2)/γ (1 − y^γ), or ``two_mode``,
+        D (1 − yⁿ) + B y²(1 − y⁴), which can flow back; so far with one pressure a section only.
+    base_exponent : float
+        n of two modes, in [0.01, 1000]; 2 with closure axis_momentum.
     """
 
     scheme: Annotated[Literal["semi_implicit"], one_of(Literal["semi_implicit"])]
     error_tolerance: Tolerance | None = None
     profile_exponent: Exponent | None = None
     pressure: Annotated[PressureOf, one_of(PressureOf)] = "row"
+    profile: Annotated[Profile, one_of(Profile)] = "power"
+    base_exponent: Exponent = 2.0
 
-    @field_validator("closure")
-    @classmethod
-    def _closure(cls, closure: Closure) -> Closure:
-        if closure != "average":
-            raise refused(closure, "average; with scheme godunov also maximum, least_squares")
-        return closure
+    @model_validator(mode="after")
+    def _of_profile(self) -> Self:
+        allowed = CLOSURES_OF[self.profile]
+        if self.closure not in allowed:
+            words = ", ".join(allowed) + f" with profile {self.profile}"
+            raise refused(
+                self.closure,
+                f"{words}; with scheme godunov average, maximum, least_squares",
+                key=("closure",),
+            )
+        if self.profile == "power":
+            if self.base_exponent != 2.0:
+                raise refused(f"{self.base_exponent:g}", "2 with profile power", key=("base_exponent",))
+            return self
+        if self.pressure != "section":
+            raise refused(
+                self.profile, "power with pressure row; two_mode with pressure section", key=("profile",)
+            )
+        if self.closure == "axis_momentum" and self.base_exponent != 2.0:
+            raise refused(f"{self.base_exponent:g}", "2 with closure axis_momentum", key=("base_exponent",))
+        if self.profile_exponent is not None:
+            raise refused(
+                f"{self.profile_exponent:g}",
+                "no profile_exponent with profile two_mode",
+                key=("profile_exponent",),
+            )
+        return self
 
     @field_validator("profile_exponent")
     @classmethod
@@ -157,6 +187,13 @@ class GodunovSolver(SolverSettings):
     scheme: Annotated[Literal["godunov"], one_of(Literal["godunov"])]
     limiter: Annotated[Limiter, one_of(Limiter)] = "van_leer"
     coefficients: Annotated[Coefficients, one_of(Coefficients)] = "corrected"
+
+    @field_validator("closure")
+    @classmethod
+    def _closure(cls, closure: Closure) -> Closure:
+        if closure in CLOSURES_OF["two_mode"]:
+            raise refused(closure, "average, maximum, least_squares with scheme godunov")
+        return closure
 
 
 Solver = Annotated[SemiImplicitSolver, Tag("semi_implicit")] | Annotated[GodunovSolver, Tag("godunov")]

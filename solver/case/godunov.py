@@ -102,7 +102,7 @@ def initial_columns(case: Case, model: Model, setup: Setup) -> State:
 
 def _columns(model: Model, steady: SteadyState) -> State:
     """State on inlet, cells and outlet from one of the semi-implicit scheme."""
-    area, flow, exponent, _ = columns_of(model, steady)
+    area, flow, exponent = columns_of(model, steady)[:3]
     gamma = np.where(np.isfinite(exponent), exponent, AVERAGE_EXPONENT)
     return State(0.0, area, flow, gamma, 0.0 if steady.reservoir is None else steady.reservoir)
 

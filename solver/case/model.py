@@ -23,6 +23,7 @@ from solver.model.boundary import (
 )
 from solver.model.diagnostics import Limits, Monitor
 from solver.model.parameters import Model, State, uniform_state
+from solver.model.profiles import TwoModes
 from solver.model.waveform import FourierSeries, Ramped, Scaled, Signal, Waveform, constant
 
 OUTPUTS_PER_CYCLE = 100  # where the case states no output_interval
@@ -98,7 +99,7 @@ def model_of(case: Case) -> Model:
     grid = grid_of(case)
     walls = walls_of(case, grid)
     settings = case.solver
-    exponent = settings.profile_exponent if isinstance(settings, SemiImplicitSolver) else None
+    implicit = isinstance(settings, SemiImplicitSolver)
     return Model(
         grid=grid,
         radius=case.geometry.radius,
@@ -109,9 +110,17 @@ def model_of(case: Case) -> Model:
         inlet=inlet_of(case),
         outlet=outlet_of(case),
         wall_table=walls.of_rows,
-        fixed_exponent=exponent,
+        fixed_exponent=settings.profile_exponent if implicit else None,
         section_wall=walls.of_sections,
+        two_modes=two_modes_of(settings) if implicit else None,
     )
+
+
+def two_modes_of(settings: SemiImplicitSolver) -> TwoModes | None:
+    """Velocity profiles of two modes of a case; None for those of one exponent."""
+    if settings.closure not in ("mean", "axis_momentum"):
+        return None
+    return TwoModes(settings.closure, settings.base_exponent)
 
 
 def initial_state(case: Case, model: Model) -> State:

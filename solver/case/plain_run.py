@@ -11,8 +11,10 @@ from solver.case.semi_implicit import azimuthal_flux_of
 from solver.geometry.symmetry import all_rows, fewer_rows
 from solver.marching.choice import stepper_of
 from solver.marching.semi_implicit import equal_steps, implicitness
+from solver.marching.two_modes import mean_axis_velocity
 from solver.marching.walk import require_exponents
 from solver.model.parameters import Model
+from solver.model.profiles import AVERAGE_EXPONENT
 from solver.runs.result import CellHistory
 from solver.schemes.rows.balance import closed_exponents
 
@@ -49,6 +51,7 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
     n_phi = computed.grid.n_phi
     area, pressure = (np.empty((times.size, grid.n_x, n_phi)) for _ in range(2))
     flow = np.empty((times.size, grid.n_x + 1, n_phi))
+    axis = None if model.two_modes is None else np.empty(area.shape[:2])
     crossing = None if model.section_wall is None else np.empty(area.shape)
     stepper = stepper_of(computed, initial_state(case, computed))
     for n, end in enumerate(times.tolist()):
@@ -60,10 +63,14 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
         area[n], flow[n], pressure[n] = state.area, state.flow, state.pressure
         if crossing is not None:
             crossing[n] = azimuthal_flux_of(model, state)
+        if axis is not None and state.axis_velocity is not None:
+            axis[n] = 0.5 * (state.axis_velocity[1:] + state.axis_velocity[:-1])
         reached()
     through = 0.5 * (flow[:, 1:] + flow[:, :-1])
     exponent = _exponents(computed, area, through)
     require_exponents(times, exponent)
+    if computed.two_modes is not None and computed.two_modes.closure == "mean":
+        axis = mean_axis_velocity(computed.two_modes, area, through)
     return CellHistory(
         times=times,
         area=all_rows(area, grid.n_phi),
@@ -72,13 +79,14 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
         exponent=all_rows(exponent, grid.n_phi),
         diagnostics={},
         azimuthal_flux=crossing,
+        axis_velocity=axis,
     )
 
 
 def _exponents(model: Model, area: Floats, flow: Floats) -> Floats:
     """γ of cells (n, n_x, n_phi); NaN where none is admissible."""
-    if model.fixed_exponent is not None:
-        return np.full(area.shape, model.fixed_exponent)
+    if model.two_modes is not None or model.fixed_exponent is not None:
+        return np.full(area.shape, model.fixed_exponent or AVERAGE_EXPONENT)
     exponent = np.empty(area.shape)
     rows = (-1, area.shape[-1])
     closed_exponents(area.reshape(rows), flow.reshape(rows), exponent.reshape(rows))

@@ -49,7 +49,8 @@ def azimuthal_flux_of(model: Model, state: State) -> Floats | None:
 
 
 def _kept(snapshot: Snapshot) -> Kept:
-    state = {part.name: np.asarray(getattr(snapshot.state, part.name)) for part in fields(State)}
+    known = {part.name: getattr(snapshot.state, part.name) for part in fields(State)}
+    state = {name: np.asarray(part) for name, part in known.items() if part is not None}
     return {**state, "next_step": np.asarray(snapshot.next_step)}
 
 
@@ -62,4 +63,5 @@ def _state(kept: Kept) -> State:
         kept["inlet_pressure"],
         kept["outlet_pressure"],
         float(kept["reservoir"]),
+        kept.get("axis_velocity"),
     )

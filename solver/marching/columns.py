@@ -3,15 +3,17 @@
 import numpy as np
 
 from cases.arrays import Floats
+from solver.marching.two_modes import mean_axis_velocity
 from solver.model.diagnostics import Columns
 from solver.model.parameters import Model, State
+from solver.model.profiles import AVERAGE_EXPONENT, TwoModes
 from solver.schemes.rows.balance import closed_exponents
 from solver.schemes.walls import tabulated_area
 from solver.wall.stiffness import area_from_pressure
 
 
 def columns_of(model: Model, state: State) -> Columns:
-    """Return A, Q, γ and P on inlet, cells and outlet; γ is NaN where none is admissible.
+    """Return A, Q, γ and P on inlet, cells and outlet, and D of two modes; γ is NaN where none is admissible.
 
     At the inlet A is extrapolated, and so is P unless it is prescribed; at the outlet P belongs to the state
     and A follows from the last cell's wall.
@@ -22,17 +24,28 @@ def columns_of(model: Model, state: State) -> Columns:
     if model.inlet.kind == "pressure" and state.inlet_pressure is not None:
         inlet = state.inlet_pressure
     shape = (model.grid.n_x + 2, model.grid.n_phi)
-    area, flow, exponent, load = (np.empty(shape) for _ in Columns._fields)
+    area, flow, exponent, load = (np.empty(shape) for _ in range(4))
     area[0], area[1:-1] = 1.5 * state.area[0] - 0.5 * state.area[1], state.area
     area[-1] = outlet_area(model, outlet)
     flow[0], flow[-1] = state.flow[0], state.flow[-1]
     np.multiply(state.flow[1:] + state.flow[:-1], 0.5, out=flow[1:-1])
     load[0], load[1:-1], load[-1] = inlet, pressure, outlet
+    if model.two_modes is not None:
+        exponent[:] = AVERAGE_EXPONENT
+        return Columns(area, flow, exponent, load, _axis_velocity(model.two_modes, state, area, flow))
     if model.fixed_exponent is None:
         closed_exponents(area, flow, exponent)
     else:
         exponent[:] = model.fixed_exponent
     return Columns(area, flow, exponent, load)
+
+
+def _axis_velocity(two_modes: TwoModes, state: State, area: Floats, flow: Floats) -> Floats:
+    """D on inlet, cells and outlet, m/s."""
+    on_faces = state.axis_velocity
+    if on_faces is None:
+        return mean_axis_velocity(two_modes, area, flow)
+    return np.concatenate([on_faces[:1], 0.5 * (on_faces[1:] + on_faces[:-1]), on_faces[-1:]])
 
 
 def outlet_area(model: Model, pressure: Floats) -> Floats:

@@ -81,7 +81,7 @@ class Stepper:
 
     def state(self) -> State:
         """Return an independent copy of the state."""
-        f = self._fields
+        f = self._of_scheme()
         return State(
             self.time,
             f.area.copy(),
@@ -90,7 +90,19 @@ class Stepper:
             f.inlet_pressure.copy(),
             f.outlet_pressure.copy(),
             float(f.reservoir[0]),
+            self._axis_velocity(),
         )
+
+    def _of_scheme(self) -> Any:
+        """Arrays of the scheme, without those of the profiles."""
+        return self._fields if self.model.two_modes is None else self._fields.base
+
+    def _axis_velocity(self) -> Floats | None:
+        """Return D on faces where it is an unknown of its own."""
+        modes = self.model.two_modes
+        if modes is None or modes.closure == "mean":
+            return None
+        return np.array(self._fields.axis_velocity)
 
     def restore(self, state: State) -> None:
         """Go back to a state."""

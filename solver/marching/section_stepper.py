@@ -1,14 +1,19 @@
 """A state with one pressure a section in the kernels' arrays, and what moves it."""
 
+from typing import Any
+
 import numpy as np
 
 from solver.errors import ModelError
+from solver.marching import two_modes
 from solver.marching.row_stepper import INLETS, Kernel, Stepper, outlet_numbers
 from solver.marching.row_stepper import fields_of as row_fields
 from solver.model.parameters import Model, State
 from solver.schemes import layout
 from solver.schemes.sections import layout as section_layout
 from solver.schemes.sections.step import advance
+from solver.schemes.two_modes import layout as mode_layout
+from solver.schemes.two_modes import sections as mode_sections
 
 TOLERANCE = 1e-7  # relative error of P and Q (root mean square) at which a step's iteration ends
 
@@ -21,15 +26,20 @@ class SectionStepper(Stepper):
         self.tolerance = TOLERANCE if tolerance is None else tolerance
 
     def _prepared(self) -> Kernel:
-        grid = self.model.grid
-        return Kernel(advance, parameters(self.model), section_layout.workspace(grid.n_x, grid.n_phi))
+        n_x, n_phi, modes = self.model.grid.n_x, self.model.grid.n_phi, self.model.two_modes
+        own, scratch = parameters(self.model), section_layout.workspace(n_x, n_phi)
+        if modes is None:
+            return Kernel(advance, own, scratch)
+        both = mode_layout.workspace(scratch, n_x, n_phi)
+        return Kernel(mode_sections.advance, two_modes.parameters(own, modes), both)
 
-    def _fields_of(self, state: State) -> section_layout.Fields:
-        return fields_of(self.model, state)
+    def _fields_of(self, state: State) -> Any:
+        fields = fields_of(self.model, state)
+        return fields if self.model.two_modes is None else two_modes.fields_of(fields, self.model, state)
 
     def state(self) -> State:
         """Return an independent copy of the state."""
-        f, n_phi = self._fields, self.model.grid.n_phi
+        f, n_phi = self._of_scheme(), self.model.grid.n_phi
         pressure = np.repeat(f.pressure[:, None], n_phi, axis=1)
         return State(
             self.time,
@@ -39,6 +49,7 @@ class SectionStepper(Stepper):
             pressure[0].copy(),
             pressure[-1].copy(),
             float(f.reservoir[0]),
+            self._axis_velocity(),
         )
 
 

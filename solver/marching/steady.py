@@ -85,8 +85,13 @@ def _settled(model: Model, before: State, after: State, time_step: float) -> boo
     flow_change = np.max(np.abs(after.flow - before.flow))
     old, new = (model.pressure(s.area) if s.pressure is None else s.pressure for s in (before, after))
     load_change = np.max(np.abs(new - old))  # in a stiff wall the area hardly shows it
+    axis_change, axis = 0.0, 0.0
+    if before.axis_velocity is not None and after.axis_velocity is not None:
+        axis_change = float(np.max(np.abs(after.axis_velocity - before.axis_velocity)))
+        axis = float(np.max(np.abs(after.axis_velocity)))
     return bool(
-        area_change < 1e-13 * widest + round_off
+        axis_change <= 1e-12 * axis + 1e-3 * REST_VELOCITY
+        and area_change < 1e-13 * widest + round_off
         and flow_change <= 1e-12 * fastest + rest
         and load_change <= 1e-11 * np.max(np.abs(new)) + 1e-9
     )

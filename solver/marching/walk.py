@@ -68,6 +68,7 @@ def history_of(stops: Sequence[Stop]) -> CellHistory:
     times = np.array([stop.time for stop in stops])
     exponent = np.array([stop.columns.exponent[1:-1] for stop in stops])
     require_exponents(times, exponent)
+    axis = [stop.columns.axis_velocity[1:-1] for stop in stops if stop.columns.axis_velocity is not None]
     crossing = [stop.azimuthal_flux for stop in stops if stop.azimuthal_flux is not None]
     return CellHistory(
         times=times,
@@ -77,4 +78,5 @@ def history_of(stops: Sequence[Stop]) -> CellHistory:
         exponent=exponent,
         diagnostics=by_name([stop.diagnostics for stop in stops]),
         azimuthal_flux=np.array(crossing) if crossing else None,
+        axis_velocity=np.array(axis) if axis else None,
     )

@@ -11,6 +11,7 @@ import numpy as np
 from cases.arrays import Floats
 from solver.errors import AxisNotContinuous, CourantExceeded, EnergyNotBalanced, MassNotConserved, RunFailure
 from solver.model.parameters import Model
+from solver.model.two_mode_balance import two_mode_balance
 from solver.schemes.rows.balance import balance, linear_wall
 from solver.schemes.walls import tabulated_area
 from solver.wall.sections import SectionWall
@@ -52,12 +53,16 @@ FAILURES: dict[str, type[RunFailure]] = {
 
 
 class Columns(NamedTuple):
-    """A state on inlet, cells and outlet: A, m², Q, m³/s, γ and P, Pa, all (n_x + 2, n_phi)."""
+    """A state on inlet, cells and outlet: A, m², Q, m³/s, γ and P, Pa, all (n_x + 2, n_phi).
+
+    With profiles of two modes D (n_x + 2,), m/s, stands for γ, which is 2 then.
+    """
 
     area: Floats
     flow: Floats
     exponent: Floats
     pressure: Floats
+    axis_velocity: Floats | None = None
 
 
 class Diagnostics(NamedTuple):
@@ -128,9 +133,14 @@ class Monitor:
             CourantExceeded, MassNotConserved, AxisNotContinuous or EnergyNotBalanced.
         """
         model, grid = self.model, self.model.grid
-        cells = Columns(*(values[1:-1] for values in state))
+        cells = Columns(*(values[1:-1] for values in state[:4]))
         slope, wall = wall_state(model, cells)
-        found = balance(*state, slope, model.density, model.viscosity, grid.dx, grid.dphi)
+        constants = model.density, model.viscosity, grid.dx, grid.dphi
+        if model.two_modes is None or state.axis_velocity is None:
+            found = balance(*state[:4], slope, *constants)
+        else:
+            known = state.area, state.flow, state.axis_velocity, state.pressure
+            found = two_mode_balance(model.two_modes, *known, slope, *constants)
         stored = 0.5 * grid.dphi * grid.dx * wall
         now = np.array(
             [time, found.kinetic + stored, found.end_power, found.dissipated, found.profile_power, 0.0]

@@ -8,6 +8,7 @@ from cases.arrays import Floats
 from solver.errors import ModelError
 from solver.geometry.grid import Grid
 from solver.model.boundary import Inlet, Outlet
+from solver.model.profiles import TwoModes
 from solver.wall.sections import SectionWall
 from solver.wall.stiffness import area_from_pressure, pressure_from_area
 from solver.wall.table import WallTable
@@ -39,6 +40,8 @@ class Model:
         γ everywhere, for the 1D model (n_phi = 1); None for the continuity closure.
     section_wall : SectionWall or None
         A(P) where all rows of a section share one pressure; None where each row has its own.
+    two_modes : TwoModes or None
+        Velocity profiles of two modes; None for those of one exponent γ.
     """
 
     grid: Grid
@@ -52,6 +55,7 @@ class Model:
     wall_table: WallTable | None = None
     fixed_exponent: float | None = None
     section_wall: SectionWall | None = None
+    two_modes: TwoModes | None = None
 
     def __post_init__(self) -> None:
         shape = (self.grid.n_x, self.grid.n_phi)
@@ -123,6 +127,8 @@ class State:
         P at the ends, Pa.
     reservoir : float or None
         P_c of a Windkessel, Pa.
+    axis_velocity : ndarray (n_x + 1,) or None
+        D on faces, m/s, where it is an unknown of its own.
     """
 
     time: float
@@ -132,6 +138,7 @@ class State:
     inlet_pressure: Floats | None = None
     outlet_pressure: Floats | None = None
     reservoir: float | None = None
+    axis_velocity: Floats | None = None
 
     def copy(self) -> "State":
         """Return an independent copy."""
@@ -147,6 +154,7 @@ class State:
             copied(self.inlet_pressure),
             copied(self.outlet_pressure),
             self.reservoir,
+            copied(self.axis_velocity),
         )
 
 

@@ -34,7 +34,7 @@ def described(name: str, values: Floats) -> xr.Variable:
 class CellHistory(NamedTuple):
     """States at cell centres: times (n,), s; A, m², Q, m³/s, P, Pa, γ (n, n_x, n_phi); diagnostics (n,).
 
-    W, m²/s, (n, n_x, n_phi), where rows exchange blood.
+    W, m²/s, (n, n_x, n_phi), where rows exchange blood; D, m/s, (n, n_x), which stands for γ with two modes.
     """
 
     times: Floats
@@ -44,6 +44,7 @@ class CellHistory(NamedTuple):
     exponent: Floats
     diagnostics: dict[str, Floats]
     azimuthal_flux: Floats | None = None
+    axis_velocity: Floats | None = None
 
 
 def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
@@ -53,7 +54,8 @@ def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
     -------
     xarray.Dataset
         pressure, radius, mean_velocity, profile_exponent, sector_flow_rate on (time, x, phi), and
-        azimuthal_flux where rows exchange blood; section_flow_rate, section_pressure on (time, x);
+        azimuthal_flux where rows exchange blood; section_flow_rate, section_pressure on (time, x); with two
+        modes axis_velocity on (time, x) and profile_bend on (time, x, phi) stand for profile_exponent;
         wall_stiffness on (x, phi); the diagnostics on (time). SI.
     """
     sector = 0.5 * model.grid.dphi * cells.flow
@@ -61,13 +63,20 @@ def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
         "pressure": cells.pressure,
         "radius": np.sqrt(cells.area),
         "mean_velocity": cells.flow / cells.area,
-        "profile_exponent": cells.exponent,
         "sector_flow_rate": sector,
         "section_flow_rate": sector.sum(axis=-1),
         "section_pressure": section_mean(cells.pressure, cells.area),
         "wall_stiffness": model.stiffness,
         **cells.diagnostics,
     }
+    if model.two_modes is None or cells.axis_velocity is None:
+        fields["profile_exponent"] = cells.exponent
+    else:
+        d = cells.axis_velocity
+        fields |= {
+            "axis_velocity": d,
+            "profile_bend": model.two_modes.bend(fields["mean_velocity"], d[..., None]),
+        }
     if cells.azimuthal_flux is not None:
         fields["azimuthal_flux"] = cells.azimuthal_flux
     dataset = coordinates(cells.times, model.grid.x, model.grid.phi)

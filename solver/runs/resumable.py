@@ -152,15 +152,15 @@ def _prepare(folder: Path, identity: str, resume: bool) -> Path:
 
 
 _ARRAYS = ("times", "area", "flow", "pressure", "exponent")
-_CROSSING = "azimuthal_flux"
+_OPTIONAL = ("azimuthal_flux", "axis_velocity")
 _NUMBERS = ("steps", "sweeps", "longest_step")
 
 
 def _write(path: Path, piece: Piece) -> None:
     values = {name: getattr(piece.cells, name) for name in _ARRAYS}
     values |= {name: np.asarray(getattr(piece, name)) for name in _NUMBERS}
-    if piece.cells.azimuthal_flux is not None:
-        values[_CROSSING] = piece.cells.azimuthal_flux
+    known = {name: getattr(piece.cells, name) for name in _OPTIONAL}
+    values |= {name: found for name, found in known.items() if found is not None}
     values |= {f"diagnostic_{name}": found for name, found in piece.cells.diagnostics.items()}
     values |= {f"kept_{name}": found for name, found in piece.kept.items()}
     with writing(path, SolverError), write_whole(path) as partial, partial.open("wb") as stream:
@@ -172,7 +172,7 @@ def _write(path: Path, piece: Piece) -> None:
 def _read(path: Path) -> Piece:
     with np.load(path) as stored:
         diagnostics = {name: stored[f"diagnostic_{name}"] for name in Diagnostics._fields}
-        arrays = {name: stored[name] for name in (*_ARRAYS, _CROSSING) if name in stored.files}
+        arrays = {name: stored[name] for name in (*_ARRAYS, *_OPTIONAL) if name in stored.files}
         cells = CellHistory(**arrays, diagnostics=diagnostics)
         numbers = {name: stored[name].item() for name in _NUMBERS}
         names = [name for name in stored.files if name.startswith("kept_")]

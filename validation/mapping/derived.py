@@ -13,6 +13,7 @@ from validation.mapping.meshed_profiles import closest_meshed_profile
 from validation.mapping.nodal_shares import TwoRings
 from validation.mapping.rays import Rays
 from validation.mapping.state import MappedState
+from validation.mapping.two_modes import closest_modes
 
 
 def as_dataset(values: Mapping[str, NDArray[np.floating]], rays: Rays, times: Floats) -> xr.Dataset:
@@ -60,6 +61,7 @@ def _state_fields(state: MappedState, rays: Rays) -> dict[str, Any]:
     sector = 0.5 * mean_velocity * state.sector_area * rays.dphi
     rings = TwoRings(*(part.reshape(-1, rays.y.size) for part in state.rings))
     closest = closest_meshed_profile(state.velocity[..., 0].reshape(-1, rays.y.size), rays.y, rings)
+    modes = closest_modes(state.velocity[..., 0], state.rings)
     axial = velocity[..., 0]
     return {
         "pressure": state.pressure,
@@ -67,6 +69,9 @@ def _state_fields(state: MappedState, rays: Rays) -> dict[str, Any]:
         "mean_velocity": mean_velocity,
         "profile_exponent": closest.exponent.reshape(mean_velocity.shape),
         "profile_error": closest.error.reshape(mean_velocity.shape),
+        "axis_velocity": modes.axis_velocity,
+        "profile_bend": modes.bend,
+        "two_mode_error": modes.error,
         "sector_flow_rate": sector,
         "section_flow_rate": sector.sum(axis=-1),
         "section_pressure": np.average(state.pressure, weights=state.sector_area, axis=-1),

@@ -65,5 +65,8 @@ def statistic_value(statistic: str, rom: Floats, reference: Floats) -> float | N
     if statistic in OF_DIFFERENCE:
         difference = rom - reference
         return OF_DIFFERENCE[statistic](difference) if np.all(np.isfinite(difference)) else None
+    if statistic == "rms_over_rms":
+        size = rms(reference) if np.all(np.isfinite(rom - reference)) else 0.0
+        return rms(rom - reference) / size if size > 0 else None
     error = relative_error(rom, reference)
     return None if error is None else OF_ERROR[statistic](error)

@@ -27,7 +27,8 @@ class Reference:
     ----------
     fields : xarray.Dataset
         On time (s into the last cycle), x, phi and y: pressure, radius, mean_velocity,
-        profile_exponent, profile_error, sector_flow_rate, section_flow_rate, section_pressure,
+        profile_exponent, profile_error, axis_velocity, profile_bend,
+        two_mode_error, sector_flow_rate, section_flow_rate, section_pressure,
         section_pressure_range, axial_velocity, radial_velocity, azimuthal_velocity, mass_defect,
         backflow_fraction, axial_dominance_radial, axial_dominance_azimuthal, axis_velocity_spread. SI.
     checks : xarray.Dataset

@@ -9,12 +9,16 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.sections.case import Case, MembraneWall
+from cases.sections.solver import SemiImplicitSolver
+from solver.case.model import two_modes_of
 from solver.case.periodicity import cycle_change
 from solver.case.run import run_case
 from solver.case.wall import has_section_pressure
 from solver.model.cross_flow import azimuthal_velocity, radial_velocity
-from solver.model.profiles import axis_ratio, shape
+from solver.model.profiles import AVERAGE_EXPONENT, axis_ratio, shape
 from validation.mapping.derived import as_dataset, dominance
+from validation.mapping.meshed_profiles import closest_meshed_profile
+from validation.mapping.nodal_shares import TwoRings
 from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
 from validation.reference.kind import Progress
@@ -88,14 +92,10 @@ def run_reduced_model(
     dataset = run_case(case, run_times(case, alignment.rom_times), progress)
     took = {"simulation_wall_time_s": round(perf_counter() - start, 3)}
     kept = dataset.sel(time=alignment.rom_times)
-    values = {name: kept[name].to_numpy() for name in COMPARED}
-    u, gamma = values["mean_velocity"], values["profile_exponent"]
-    axial = u[..., None] * shape(rays.y, gamma[..., None])
-    axis = u * axis_ratio(gamma)
-    values["axial_velocity"] = axial.astype(np.float32)
+    values = {name: kept[name].to_numpy() for name in COMPARED if name in kept}
+    values |= _power(values, rays) if "profile_exponent" in values else _two_modes(case, kept, rays)
     values |= _across(values, kept.get("azimuthal_flux"), rays)
     values["section_pressure_range"] = np.ptp(values["pressure"], axis=-1)
-    values["axis_velocity_spread"] = np.ptp(axis, axis=-1) / np.abs(axis).mean(axis=-1)
     change = change_of(case, dataset)
     return ReducedModelRun(
         fields=as_dataset(values, rays, alignment.cycle_times),
@@ -105,9 +105,45 @@ def run_reduced_model(
     )
 
 
+def _power(values: dict[str, Floats], rays: Rays) -> dict[str, Floats]:
+    """v_x and D of profiles with one exponent."""
+    u, gamma = values["mean_velocity"], values["profile_exponent"]
+    axial = u[..., None] * shape(rays.y, gamma[..., None])
+    axis = u * axis_ratio(gamma)
+    return {
+        "axial_velocity": axial.astype(np.float32),
+        "axis_velocity": axis.mean(axis=-1),
+        "axis_velocity_spread": np.ptp(axis, axis=-1) / np.abs(axis).mean(axis=-1),
+    }
+
+
+def _two_modes(case: Case, kept: xr.Dataset, rays: Rays) -> dict[str, Floats]:
+    """v_x, D and B of profiles of two modes, and the exponent of the closest profile that has one."""
+    modes = two_modes_of(case.solver) if isinstance(case.solver, SemiImplicitSolver) else None
+    if modes is None:
+        raise ValueError("a run without exponents of a case without two modes")
+    d, bend = kept["axis_velocity"].to_numpy(), kept["profile_bend"].to_numpy()
+    axial = modes.velocity(rays.y, np.broadcast_to(d[..., None], bend.shape), bend)
+    flat = axial.reshape(-1, rays.y.size)
+    points = np.broadcast_to(rays.y, flat.shape).copy()
+    own = closest_meshed_profile(flat, rays.y, TwoRings(points, points, np.zeros(flat.shape)))
+    return {
+        "axial_velocity": axial.astype(np.float32),
+        "axis_velocity": d,
+        "axis_velocity_spread": np.zeros(d.shape),
+        "profile_bend": bend,
+        "profile_exponent": own.exponent.reshape(bend.shape),
+    }
+
+
 def _across(values: dict[str, Floats], flux: xr.DataArray | None, rays: Rays) -> dict[str, Floats]:
-    """v_r, and v_φ where rows exchange blood, with their ratios to v_x."""
+    """v_r, and v_φ where rows exchange blood, with their ratios to v_x.
+
+    Beside two modes both are given the shapes of Poiseuille's profile.
+    """
     radius, u, gamma = (values[name] for name in ("radius", "mean_velocity", "profile_exponent"))
+    if "profile_bend" in values:
+        gamma = np.full(gamma.shape, AVERAGE_EXPONENT)
     crossing = None if flux is None else flux.to_numpy()
     spacing = float(rays.x[1] - rays.x[0]), rays.dphi
     radial = radial_velocity(radius, u, gamma, crossing, spacing, rays.y)

@@ -52,7 +52,7 @@ LOWER, MIDDLE, UPPER = 0, 1, 2
 
 
 @inlined_kernel
-def _mass_balance(s: Stepping, p: Parameters, ws: Workspace) -> None:
+def mass_balance(s: Stepping, p: Parameters, ws: Workspace) -> None:
     """Mass balance of every section at the iterate, summed over φ."""
     ratio = s.time_step / p.dx
     for i in range(ws.mass.size):
@@ -61,7 +61,7 @@ def _mass_balance(s: Stepping, p: Parameters, ws: Workspace) -> None:
 
 
 @inlined_kernel
-def _advection_matrix(s: Stepping, p: Parameters, ws: Workspace, outlet_slope: float) -> None:
+def advection_matrix(s: Stepping, p: Parameters, ws: Workspace, outlet_slope: float) -> None:
     """Advection and friction of all rows of a section, by their mean: tridiagonal on faces."""
     lower, middle, upper = ws.matrix[LOWER], ws.matrix[MIDDLE], ws.matrix[UPPER]
     ratio, last = s.time_step / p.dx, ws.mass.size
@@ -79,7 +79,7 @@ def _advection_matrix(s: Stepping, p: Parameters, ws: Workspace, outlet_slope: f
 
 
 @inlined_kernel
-def _section_matrix(s: Stepping, p: Parameters, ws: Workspace, gap: float, answer: float) -> None:
+def section_matrix(s: Stepping, p: Parameters, ws: Workspace, gap: float, answer: float) -> None:
     """Section's flow with the pressure eliminated: δP = (mass − c ∂δq)/Σ(dA/dP); into matrix and ``total``.
 
     ``gap`` and ``answer`` are the outlet's: δP = gap + answer δq.
@@ -111,7 +111,7 @@ def _section_matrix(s: Stepping, p: Parameters, ws: Workspace, gap: float, answe
 
 
 @kernel
-def _thomas(matrix: Floats, right: Floats, solution: Floats) -> None:
+def thomas(matrix: Floats, right: Floats, solution: Floats) -> None:
     """Solve a tridiagonal system; the middle is overwritten."""
     lower, middle, upper = matrix[LOWER], matrix[MIDDLE], matrix[UPPER]
     last = right.size - 1
@@ -126,7 +126,7 @@ def _thomas(matrix: Floats, right: Floats, solution: Floats) -> None:
 
 
 @inlined_kernel
-def _section_change(s: Stepping, p: Parameters, ws: Workspace, gap: float, answer: float) -> float:
+def section_change(s: Stepping, p: Parameters, ws: Workspace, gap: float, answer: float) -> float:
     """δP everywhere, taken by the iterate, and its pull on the rows, into ``total``; Σ of δP squared."""
     c, n_x = s.theta * s.time_step / p.dx, ws.mass.size
     change, squares = ws.change, 0.0
@@ -144,7 +144,7 @@ def _section_change(s: Stepping, p: Parameters, ws: Workspace, gap: float, answe
 
 
 @inlined_kernel
-def _drive(s: Stepping, p: Parameters, old: Floats, new: Floats, drive: Floats) -> None:
+def drive_of(s: Stepping, p: Parameters, old: Floats, new: Floats, drive: Floats) -> None:
     """Δt/(ρΔx) times the θ-weighted pressure's rise over each face; half cells at the ends."""
     scale, last = s.time_step / (p.density * p.dx), drive.size - 1
     for f in range(last + 1):
@@ -214,7 +214,7 @@ def _sweep(
         return status, i, j, 0.0
     n_x = fields.area.shape[0]
     drive = ws.change
-    _drive(s, p, fields.pressure, ws.iterate_pressure, drive)
+    drive_of(s, p, fields.pressure, ws.iterate_pressure, drive)
     momentum_balance(
         fields.flow,
         ws.iterate_flow,
@@ -236,11 +236,11 @@ def _sweep(
     a, b = outlet_law(p, s, ws, fields, offset)
     outflow = float(np.sum(ws.iterate_flow[n_x]))
     gap = a + b * outflow - ws.iterate_pressure[n_x + 1]
-    _mass_balance(s, p, ws)
-    _advection_matrix(s, p, ws, outlet_slope)
-    _section_matrix(s, p, ws, gap, b)
-    _thomas(ws.section_matrix, ws.total, ws.change)
-    squares = _section_change(s, p, ws, gap, b)
+    mass_balance(s, p, ws)
+    advection_matrix(s, p, ws, outlet_slope)
+    section_matrix(s, p, ws, gap, b)
+    thomas(ws.section_matrix, ws.total, ws.change)
+    squares = section_change(s, p, ws, gap, b)
     spread(float(ws.change[0]), ws.residual[0], ws.scratch[3])
     shared = share_outlet(ws, outflow + float(ws.change[n_x]))
     solve_rows(ws.residual, ws.face_area, ws.total, ws.matrix, shared)
@@ -248,7 +248,7 @@ def _sweep(
 
 
 @summing_kernel
-def _extrapolate(new: Floats, older: Floats, oldest: Floats, guess: Floats, order: int) -> None:
+def extrapolate(new: Floats, older: Floats, oldest: Floats, guess: Floats, order: int) -> None:
     """First iterate: the old state, or its extrapolation in time of order 1 or 2; remember the past."""
     a = (1.0, 2.0, 3.0)[order]
     b = (0.0, -1.0, -3.0)[order]
@@ -282,8 +282,8 @@ def step(
     status, i, j, sweeps : int
         OK or what failed, the cell counted from 0, and the sweeps used.
     """
-    _extrapolate(fields.pressure, ws.older_pressure, ws.oldest_pressure, ws.iterate_pressure, order)
-    _extrapolate(fields.flow, ws.older_flow, ws.oldest_flow, ws.iterate_flow, order)
+    extrapolate(fields.pressure, ws.older_pressure, ws.oldest_pressure, ws.iterate_pressure, order)
+    extrapolate(fields.flow, ws.older_flow, ws.oldest_flow, ws.iterate_flow, order)
     section_sums(fields.area, ws.old_area_sum)
     section_sums(fields.flow, ws.old_flow_sum)
     status, i = end_walls(p, fields.pressure, ws.old_end_area)
@@ -310,13 +310,13 @@ def step(
         flow_before, pressure_before = flow_change, pressure_change
         flow_converged = flow_error <= s.tolerance * np.sqrt(size) + rest_flow
         if flow_converged and pressure_error <= s.tolerance * np.sqrt(level) + rest_pressure:
-            _accept(p, s, ws, fields)
+            accept(p, s, ws, fields)
             return OK, 0, 0, sweep
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
 
 @inlined_kernel
-def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
+def accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     """Take the iterate as the new state; ΣA' from the fluxes, so that mass is kept to round-off.
 
     A of the last sweep is scaled to it: the sections' pressures changed since by less than the tolerance.
@@ -326,7 +326,7 @@ def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
         ws.iterate_pressure[0] = 1.5 * ws.iterate_pressure[1] - 0.5 * ws.iterate_pressure[2]
     for f in range(n_x + 1):
         ws.flow_sum[f] = (1.0 - s.theta) * ws.old_flow_sum[f] + s.theta * ws.new_flow_sum[f]
-    _mass_balance(s, p, ws)
+    mass_balance(s, p, ws)
     for i in range(n_x):
         ws.mass[i] = 1.0 + ws.mass[i] / ws.area_sum[i]
     scaled_rows(ws.iterate_area, ws.mass, fields.area)

@@ -1,0 +1,83 @@
+"""Momentum on the axis: D as an unknown of its own (numba kernel).
+
+    ∂_tD + D ∂_xD = −(1/ρ) ∂_xP + 4ν mean_φ[(4u − 3D)/A]
+
+is the Navier–Stokes equation on the axis for n = 2. What is prescribed comes in at a velocity or flow inlet,
+with D = 2u; an end through which blood enters at a pressure knows no D of its own, and advects none.
+"""
+
+import numpy as np
+from numba import njit
+
+from cases.arrays import Floats
+from solver.schemes.layout import PRESSURE_INLET
+
+LOWER, MIDDLE, UPPER = 0, 1, 2
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def axis_momentum(
+    theta: float,
+    carry: float,
+    scale: float,
+    old: Floats,
+    advecting: Floats,
+    drive: Floats,
+    old_flow: Floats,
+    new_flow: Floats,
+    face_area: Floats,
+    inlet_kind: int,
+    inlet_velocity: float,
+    matrix: Floats,
+    right: Floats,
+) -> None:
+    """Balance of D on all faces, tridiagonal: into ``matrix`` (3, n_x + 1) and ``right`` (n_x + 1,).
+
+    Parameters
+    ----------
+    theta, carry, scale : float
+        θ, Δt/Δx, s/m, and Δt μ/ρ, m².
+    old, advecting : ndarray (n_x + 1,)
+        D of the old state, and the θ-weighted one of the last iterate, with which it is advected, upwind.
+    drive : ndarray (n_x + 1,)
+        Δt/ρ ∂_xP, mean over φ.
+    old_flow, new_flow : ndarray (n_x + 1, n_phi)
+        Q.
+    face_area : ndarray (n_x + 1, n_phi + 2)
+        θ-weighted A.
+    inlet_kind, inlet_velocity
+        Kind and, unless that is a pressure, u there at the new time.
+    """
+    last, n = old.size - 1, new_flow.shape[1]
+    lower, middle, upper = matrix[LOWER], matrix[MIDDLE], matrix[UPPER]
+    for f in range(last + 1):
+        relax, pull = 0.0, 0.0
+        for j in range(n):
+            inverse = 1.0 / face_area[f, j + 1]
+            relax += inverse
+            pull += ((1.0 - theta) * old_flow[f, j] + theta * new_flow[f, j]) * inverse * inverse
+        relax *= 12.0 * scale / n
+        lower[f], upper[f], middle[f] = 0.0, 0.0, 1.0 + theta * relax
+        right[f] = old[f] - drive[f] + 16.0 * scale * pull / n - (1.0 - theta) * relax * old[f]
+        speed = carry * advecting[f]
+        if speed > 0.0 and f > 0:
+            lower[f] = -theta * speed
+            middle[f] += theta * speed
+            right[f] -= (1.0 - theta) * speed * (old[f] - old[f - 1])
+        elif speed < 0.0 and f < last:
+            upper[f] = theta * speed
+            middle[f] -= theta * speed
+            right[f] -= (1.0 - theta) * speed * (old[f + 1] - old[f])
+    if inlet_kind != PRESSURE_INLET:
+        lower[0], middle[0], upper[0], right[0] = 0.0, 1.0, 0.0, 2.0 * inlet_velocity
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def taken(solution: Floats, axis: Floats) -> tuple[float, float]:
+    """Make the solution the iterate; norms of its change and of itself."""
+    change, size = 0.0, 0.0
+    for f in range(axis.size):
+        change += (solution[f] - axis[f]) ** 2
+        size += solution[f] ** 2
+        axis[f] = solution[f]
+    return np.sqrt(change), np.sqrt(size)
