@@ -24,7 +24,8 @@ class MembraneWall(Section):
     base : str
         The row law that it follows where it is uniform.
     poisson_ratio : float
-        ν in [0, 0.5), for the shear modulus E/(2(1 + ν)) also where the base itself needs none.
+        ν in [0, 0.5], less than 0.5 where its base needs that, for the shear modulus E/(2(1 + ν)) also where
+        the base itself needs none.
     supports : str
         What keeps it from moving as a whole: ``quarters``, four generators φ = 0, 90, 180, 270 deg that move
         radially only; ``free``, nothing (its mean translation and rotation are zero).
@@ -40,6 +41,8 @@ class MembraneWall(Section):
         fields = LAWS[self.base].model_fields
         beside = [key for key in type(self).model_fields if key not in MembraneWall.model_fields]
         needed = [key for key in beside if key in fields and fields[key].is_required()]
+        if self.poisson_ratio == 0.5 and not LAWS[self.base].incompressible:
+            raise refused("0.5", f"less than 0.5 with base {self.base}", key=("poisson_ratio",))
         for key in beside:
             stated = getattr(self, key) is not None
             if key in needed and not stated:

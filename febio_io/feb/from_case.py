@@ -145,6 +145,8 @@ def _wall(case: Case) -> Wall:
         raise _refused(
             "wall.reference_pressure", f"{wall.reference_pressure:g} Pa", "0 Pa: it starts unloaded"
         )
+    if wall.poisson_ratio == 0.5:
+        raise _refused("wall.poisson_ratio", "0.5", "less than 0.5: FEBio's material is compressible")
     return Wall(wall.febio_material, wall.youngs_modulus, wall.poisson_ratio)
 
 

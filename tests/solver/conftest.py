@@ -5,7 +5,7 @@ name: short
 title: A short artery
 geometry: {length: 15 mm, radius: 2.5 mm, wall_thickness: 0.5 mm}
 blood: {density: 1060 kg/m^3, viscosity: 0.003 Pa s}
-wall: {law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}
+wall: {law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.5}
 calcification: {pattern: none}
 inlet: {kind: velocity, waveform: inlet.csv}
 outlet: {kind: resistance, resistance: 1.358e9 Pa s/m^3, offset: 9330 Pa}

@@ -9,7 +9,7 @@ from solver.case.run import run_case, walk
 from solver.errors import ModelError
 
 PARTS = {
-    "wall": "{law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}",
+    "wall": "{law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.5}",
     "calcification": "{pattern: none}",
     "inlet": "{kind: velocity, waveform: inlet.csv}",
     "outlet": "{kind: resistance, resistance: 5.7817e9 Pa s/m^3, offset: 7205.2 Pa, flow: row}",

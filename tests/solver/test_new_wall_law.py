@@ -12,7 +12,7 @@ import xarray as xr
 from test_resume import changed
 
 ROOT = Path(__file__).parents[2]
-THIN = "{law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}"
+THIN = "{law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.5}"
 RUBBER = "law: rubber, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48, share: 0.8"
 SHIPPED = "thin, thick, layered, saint_venant_kirchhoff, neo_hookean, table"
 

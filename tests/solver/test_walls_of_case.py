@@ -15,7 +15,7 @@ from solver.case.run import run_case
 from solver.errors import ModelError
 
 ROOT = Path(__file__).parents[2]
-THIN = "wall: {law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}"
+THIN = "wall: {law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.5}"
 LAYERS = (
     "layers: [{name: media, thickness: 0.3 mm, youngs_modulus: 0.9 MPa, calcifies: true}, "
     "{name: adventitia, thickness: 0.2 mm, youngs_modulus: 0.4 MPa}]"

@@ -57,15 +57,23 @@ def coupled_model(case: Case) -> Case:
 
 
 def _of_linear_laws(wall: WallLaw) -> dict[str, Wall]:
-    """Return a linear wall of one material by every such law; nothing for another wall."""
+    """Return a linear wall of one material by every such law; nothing for another wall.
+
+    A law that has a Poisson's ratio of its own keeps it: the thin wall is the thesis's.
+    """
     if not wall.linear or not isinstance(wall, HomogeneousWall):
         return {}
     stated = {key: getattr(wall, key) for key in HomogeneousWall.model_fields}
     return {
-        name: law.model_construct(None, **stated | {"law": name})
+        name: law.model_construct(None, **stated | _own(law) | {"law": name})
         for name, law in LAWS.items()
         if law.linear and law.model_fields.keys() == stated.keys()
     }
+
+
+def _own(law: type[WallLaw]) -> dict[str, float]:
+    ratio = law.model_fields["poisson_ratio"]
+    return {} if ratio.is_required() else {"poisson_ratio": ratio.default}
 
 
 def _membrane(wall: Wall) -> MembraneWall:

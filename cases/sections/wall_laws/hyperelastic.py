@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import ClassVar, NamedTuple
 
 from cases.arrays import Floats
-from cases.sections.wall_laws.law import HomogeneousWall
+from cases.sections.wall_laws.law import CompressibleRatio, HomogeneousWall
 from cases.sections.wall_laws.thick import lame_stiffness
 
 
@@ -23,6 +23,8 @@ class HyperelasticWall(HomogeneousWall):
     """A thick-walled tube of a material with a strain energy W(λ_r, λ_θ), in plane strain along the axis."""
 
     linear: ClassVar[bool] = False
+    incompressible: ClassVar[bool] = False
+    poisson_ratio: CompressibleRatio
 
     @staticmethod
     @abstractmethod

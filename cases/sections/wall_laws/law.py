@@ -10,7 +10,10 @@ from cases.arrays import Floats
 from cases.sections.base import Section
 from cases.values.kinds import Modulus, Pressure, Switch, Thickness, Words, number
 
-PoissonRatio = Annotated[float, number("a number from 0 on, less than 0.5", lambda value: 0 <= value < 0.5)]
+PoissonRatio = Annotated[float, number("a number from 0 to 0.5", lambda value: 0 <= value <= 0.5)]
+CompressibleRatio = Annotated[
+    float, number("a number from 0 on, less than 0.5", lambda value: 0 <= value < 0.5)
+]
 
 
 class Layer(Section):
@@ -53,6 +56,7 @@ class WallLaw(Section):
     law: str
 
     linear: ClassVar[bool] = True
+    incompressible: ClassVar[bool] = True
     febio_material: ClassVar[str | None] = None
     not_in_febio: ClassVar[str] = "no material of FEBio is declared for it"
 
@@ -86,7 +90,7 @@ class HomogeneousWall(WallLaw):
     youngs_modulus : float
         E in Pa.
     poisson_ratio : float
-        ν in [0, 0.5).
+        ν in [0, 0.5].
     reference_pressure : float
         Transmural pressure P₀ of the unloaded radius in Pa.
     """

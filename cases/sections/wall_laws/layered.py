@@ -30,7 +30,7 @@ class LayeredWall(WallLaw):
     layers : tuple of Layer
         The layers from inside to outside; their thicknesses sum to that of the wall.
     poisson_ratio : float
-        ν in [0, 0.5) of all layers.
+        ν in [0, 0.5] of all layers.
     reference_pressure : float
         Transmural pressure P₀ of the unloaded radius in Pa.
     """
@@ -50,7 +50,8 @@ class LayeredWall(WallLaw):
     def stiffness(self, moduli: Sequence[Floats], radius: float, thickness: float) -> Floats:
         """Return β of the bonded layers, Pa m.
 
-        In each layer u_r = a r + b/r and σ_r = E/(1+ν) [a/(1−2ν) − b/r²] (plane strain). From the outer
+        In each layer u_r = a r + b/r and σ_r = E/(1+ν) [a/(1−2ν) − b/r²] (plane strain); with a = (1−2ν) c
+        and b over c instead of a the terms stay finite at ν = ½. From the outer
         surface, where σ_r = 0, the ratio of traction to displacement is carried inwards through the layers;
         at R₀ it gives u_r = P R₀²/β.
         """
@@ -60,12 +61,12 @@ class LayeredWall(WallLaw):
         support: Floats | float = 0.0  # −σ_r/u_r at the layer's outer edge, Pa/m
         for modulus, inner, outer in reversed(list(zip(moduli, edges[:-1], edges[1:], strict=True))):
             factor = modulus / (1 + nu)
-            # b/a from −σ_r = support · u_r at the outer edge
-            top = factor / (1 - 2 * nu) + support * outer
+            # b/c from −σ_r = support · u_r at the outer edge
+            top = factor + (1 - 2 * nu) * support * outer
             bottom = factor / outer**2 - support / outer
             ratio = top / bottom
-            stress = factor * (1 / (1 - 2 * nu) - ratio / inner**2)
-            support = -stress / (inner + ratio / inner)
+            stress = factor * (1 - ratio / inner**2)
+            support = -stress / ((1 - 2 * nu) * inner + ratio / inner)
         return np.asarray(support * radius**2)
 
     def unloaded_pressure(self, radius: float) -> float:

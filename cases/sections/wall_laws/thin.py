@@ -6,17 +6,18 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from cases.arrays import Floats
-from cases.sections.wall_laws.law import HomogeneousWall
+from cases.sections.wall_laws.law import HomogeneousWall, PoissonRatio
 
 
 class ThinWall(HomogeneousWall):
-    """A linear thin-walled tube; Poisson's ratio is not used: 1/2 is built in."""
+    """A linear thin-walled tube, incompressible where no Poisson's ratio is stated, as the thesis's."""
 
     law: Literal["thin"]
+    poisson_ratio: PoissonRatio = 0.5
 
     febio_material: ClassVar[str] = "isotropic elastic"
 
     def stiffness(self, moduli: Sequence[Floats], radius: float, thickness: float) -> Floats:
-        """Return β = (4/3) E h (2.2.1), Pa m."""
+        """Return β = E h/(1 − ν²), Pa m; (4/3) E h for ν = ½ (2.2.1)."""
         del radius
-        return np.asarray(4.0 / 3.0 * moduli[0] * thickness)
+        return np.asarray(1.0 / (1.0 - self.poisson_ratio**2) * moduli[0] * thickness)
