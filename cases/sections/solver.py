@@ -26,6 +26,7 @@ RESOLVED_PER_CYCLE = 50  # saved states with which powers are integrated over ti
 
 Closure = Literal["average", "maximum", "least_squares", "mean", "axis_momentum"]
 CLOSURES_OF = MappingProxyType({"power": ("average",), "two_mode": ("mean", "axis_momentum")})
+GODUNOV_CLOSURES = ("average", "maximum", "least_squares")
 Profile = Literal["power", "two_mode"]
 Start = Literal["steady", "rest"]
 PressureOf = Literal["row", "section"]
@@ -124,7 +125,7 @@ class SemiImplicitSolver(SolverSettings):
         whose rows then exchange blood.
     profile : str
         Family of velocity profiles: ``power``, the thesis's u (γ+2)/γ (1 − y^γ), or ``two_mode``,
-        D (1 − yⁿ) + B y²(1 − y⁴), which can flow back; so far with one pressure a section only.
+        D (1 − yⁿ) + B y²(1 − y⁴), which can flow back.
     base_exponent : float
         n of two modes, in [0.01, 1000]; 2 with closure axis_momentum.
     """
@@ -136,24 +137,19 @@ class SemiImplicitSolver(SolverSettings):
     profile: Annotated[Profile, one_of(Profile)] = "power"
     base_exponent: Exponent = 2.0
 
+    def _closures(self) -> str:
+        if self.closure in GODUNOV_CLOSURES and self.profile == "power":
+            return "average; with scheme godunov also maximum, least_squares"
+        return "; ".join(f"{', '.join(names)} with profile {name}" for name, names in CLOSURES_OF.items())
+
     @model_validator(mode="after")
     def _of_profile(self) -> Self:
-        allowed = CLOSURES_OF[self.profile]
-        if self.closure not in allowed:
-            words = ", ".join(allowed) + f" with profile {self.profile}"
-            raise refused(
-                self.closure,
-                f"{words}; with scheme godunov average, maximum, least_squares",
-                key=("closure",),
-            )
+        if self.closure not in CLOSURES_OF[self.profile]:
+            raise refused(self.closure, self._closures(), key=("closure",))
         if self.profile == "power":
             if self.base_exponent != 2.0:
                 raise refused(f"{self.base_exponent:g}", "2 with profile power", key=("base_exponent",))
             return self
-        if self.pressure != "section":
-            raise refused(
-                self.profile, "power with pressure row; two_mode with pressure section", key=("profile",)
-            )
         if self.closure == "axis_momentum" and self.base_exponent != 2.0:
             raise refused(f"{self.base_exponent:g}", "2 with closure axis_momentum", key=("base_exponent",))
         if self.profile_exponent is not None:
@@ -191,8 +187,8 @@ class GodunovSolver(SolverSettings):
     @field_validator("closure")
     @classmethod
     def _closure(cls, closure: Closure) -> Closure:
-        if closure in CLOSURES_OF["two_mode"]:
-            raise refused(closure, "average, maximum, least_squares with scheme godunov")
+        if closure not in GODUNOV_CLOSURES:
+            raise refused(closure, f"{', '.join(GODUNOV_CLOSURES)} with scheme godunov")
         return closure
 
 

@@ -16,10 +16,13 @@ from solver.errors import (
     RunFailure,
     WallCollapse,
 )
+from solver.marching import two_modes
 from solver.model.boundary import NonReflectingOutlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
 from solver.model.parameters import Model, State
 from solver.schemes import layout
 from solver.schemes.rows.step import advance
+from solver.schemes.two_modes import layout as mode_layout
+from solver.schemes.two_modes import rows as mode_rows
 
 TOLERANCE = 3e-8  # relative error of P and Q (root mean square) at which a step's iteration ends
 MAX_SWEEPS = 60
@@ -73,11 +76,16 @@ class Stepper:
     def _prepared(self) -> Kernel:
         """Bind the scheme's kernel to the model's parameters and a workspace of its own."""
         grid = self.model.grid
-        return Kernel(advance, parameters(self.model), layout.workspace(grid.n_x, grid.n_phi))
+        own, scratch = parameters(self.model), layout.workspace(grid.n_x, grid.n_phi)
+        if self.model.two_modes is None:
+            return Kernel(advance, own, scratch)
+        both = mode_layout.workspace(scratch, grid.n_x, grid.n_phi)
+        return Kernel(mode_rows.advance, two_modes.parameters(own, self.model.two_modes), both)
 
     def _fields_of(self, state: State) -> Any:
         """Arrays of the kernel from a state."""
-        return fields_of(self.model, state)
+        fields = fields_of(self.model, state)
+        return fields if self.model.two_modes is None else two_modes.fields_of(fields, self.model, state)
 
     def state(self) -> State:
         """Return an independent copy of the state."""

@@ -58,15 +58,18 @@ def extreme_error(statistic: str, rom: Floats, reference: Floats) -> float | Non
     return None if error is None else float(error[0])
 
 
+def _finite(rom: Floats, reference: Floats) -> bool:
+    return bool(np.all(np.isfinite(rom)) and np.all(np.isfinite(reference)))
+
+
 def statistic_value(statistic: str, rom: Floats, reference: Floats) -> float | None:
     """Value of a statistic over all entries; None where it has no meaning."""
     if statistic in EXTREMES:
         return extreme_error(statistic, rom, reference)
     if statistic in OF_DIFFERENCE:
-        difference = rom - reference
-        return OF_DIFFERENCE[statistic](difference) if np.all(np.isfinite(difference)) else None
+        return OF_DIFFERENCE[statistic](rom - reference) if _finite(rom, reference) else None
     if statistic == "rms_over_rms":
-        size = rms(reference) if np.all(np.isfinite(rom - reference)) else 0.0
+        size = rms(reference) if _finite(rom, reference) else 0.0
         return rms(rom - reference) / size if size > 0 else None
     error = relative_error(rom, reference)
     return None if error is None else OF_ERROR[statistic](error)

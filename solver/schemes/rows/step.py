@@ -66,7 +66,7 @@ def _mean(theta: float, old: Floats, new: Floats, mean: Floats) -> None:
 
 
 @inlined_kernel
-def _means(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
+def means(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
     """Find A of the iterate, and the means of A, P and Q; the failure (status, i, j) if there is one."""
     status, i, j = wall_area(p, 0, ws.iterate_pressure, ws.iterate_area, ws.area_slope)
     if status != OK:
@@ -153,7 +153,7 @@ def _sweep(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, values: tuple[float, float]
 ) -> tuple[int, int, int]:
     """One Newton sweep: from one iterate to the next; status, i, j."""
-    status, i, j = _means(p, s, ws, fields)
+    status, i, j = means(p, s, ws, fields)
     if status != OK:
         return status, i, j
     status, i, j = _coefficients(p, s, ws)
@@ -165,14 +165,15 @@ def _sweep(
 
 
 @kernel
-def _copy(values: Floats, target: Floats) -> None:
+def copy(values: Floats, target: Floats) -> None:
+    """Copy a 2-D array."""
     for i in range(values.shape[0]):
         for j in range(values.shape[1]):
             target[i, j] = values[i, j]
 
 
 @kernel
-def _take(iterate: Floats, state: Floats) -> None:
+def take(iterate: Floats, state: Floats) -> None:
     """Make the iterate the state, and its linear extrapolation in time the next step's first iterate."""
     for i in range(state.shape[0]):
         for j in range(state.shape[1]):
@@ -182,15 +183,15 @@ def _take(iterate: Floats, state: Floats) -> None:
 
 
 @inlined_kernel
-def _begin_at_state(ws: Workspace, fields: Fields) -> None:
+def begin_at_state(ws: Workspace, fields: Fields) -> None:
     """First iterate without a past: the state."""
-    _copy(fields.pressure, ws.iterate_pressure)
-    _copy(fields.flow, ws.iterate_flow)
+    copy(fields.pressure, ws.iterate_pressure)
+    copy(fields.flow, ws.iterate_flow)
     ws.end_pressure[OUTLET, :] = fields.outlet_pressure
 
 
 @inlined_kernel
-def _start(
+def start(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float
 ) -> tuple[int, int, int]:
     """Prepare what stays fixed during a step; status, i, j."""
@@ -226,7 +227,7 @@ def step(
     status, i, j, sweeps : int
         OK or what failed, the cell counted from 0, and the sweeps used.
     """
-    status, i, j = _start(p, s, ws, fields, inlet_value)
+    status, i, j = start(p, s, ws, fields, inlet_value)
     if status != OK:
         return status, i, j, 0
     rest_flow = REST_VELOCITY * 1e-3 * p.radius * p.radius
@@ -244,13 +245,13 @@ def step(
         flow_before, pressure_before = flow_change, pressure_change
         flow_converged = flow_error <= s.tolerance * flow + rest_flow
         if flow_converged and pressure_error <= s.tolerance * pressure + 1e-9 + 1e-12 * pressure:
-            _accept(p, s, ws, fields)
+            accept(p, s, ws, fields)
             return OK, 0, 0, sweep
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
 
 @inlined_kernel
-def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
+def accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     """Take the iterate as the new state; A' from the fluxes, so that mass is kept to round-off."""
     flow, new_flow = fields.flow, ws.iterate_flow
     n_x = fields.area.shape[0]
@@ -260,10 +261,10 @@ def _accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
         ws.exchanged[1] += sector * ((1.0 - s.theta) * flow[n_x, j] + s.theta * new_flow[n_x, j])
     release_area(ws.held_area, new_flow, s.theta * s.time_step / p.dx, fields.area)
     fields.inlet_pressure[:] = ws.end_pressure[INLET]
-    _take(ws.end_pressure[OUTLET:], fields.outlet_pressure.reshape((1, flow.shape[1])))
+    take(ws.end_pressure[OUTLET:], fields.outlet_pressure.reshape((1, flow.shape[1])))
     update_reservoir(p, fields, new_flow[n_x])
-    _take(new_flow, flow)
-    _take(ws.iterate_pressure, fields.pressure)
+    take(new_flow, flow)
+    take(ws.iterate_pressure, fields.pressure)
 
 
 @kernel
@@ -278,13 +279,13 @@ def advance(
         As :func:`step`; steps completed and sweeps in all.
     """
     total, extrapolated = 0, False
-    _begin_at_state(ws, fields)
+    begin_at_state(ws, fields)
     for n in range(inlet_values.size):
         value, offset = inlet_values[n], outlet_offsets[n]
         status, i, j, sweeps = step(p, s, ws, fields, value, offset)
         total += sweeps
         if status != OK and extrapolated:  # the past may be a jump, from which no state can be extrapolated
-            _begin_at_state(ws, fields)
+            begin_at_state(ws, fields)
             status, i, j, sweeps = step(p, s, ws, fields, value, offset)
             total += sweeps
         extrapolated = True

@@ -38,11 +38,16 @@ def fluxes(
 ) -> None:
     """A 2∫v²y dy at cell centres, and θ times the mean over φ of its derivatives by either face's Q.
 
-    ``axis`` is D on faces (n_x + 1,); the derivatives are those of a whole section and of its rows.
+    ``axis`` is D on faces (n_x + 1,), unused where D is the section's mean, here that of the cell. The
+    derivatives are those of a whole section and of its rows.
     """
     n = flow.shape[1]
     for i in range(flux.shape[0]):
         d = 0.5 * (axis[i] + axis[i + 1])
+        if not modes.momentum:
+            d = 0.0
+            for j in range(n):
+                d += 0.5 * (flow[i, j] + flow[i + 1, j]) / (mean_area[i, j] * n * modes.share)
         of_section, of_row = 0.0, 0.0
         for j in range(n):
             u = 0.5 * (flow[i, j] + flow[i + 1, j]) / mean_area[i, j]
