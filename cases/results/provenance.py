@@ -51,8 +51,11 @@ class ReducedModelSettings(_Settings):
         Time steps of all cycles.
     simulation_wall_time_s : float, optional
         Wall time of its run when it was computed, without compiling, s.
+    profile : str, optional
+        Family of its velocity profiles, as the case file names it.
     """
 
+    profile: str | None = None
     cycles: Count | None = None
     cycle_change: Amount | None = None
     steps: Count | None = None

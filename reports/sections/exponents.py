@@ -16,7 +16,7 @@ from reports.sections.parts import error_curves
 from reports.sections.parts.lumen import cells_csv, centres, field, outlined
 from reports.sections.parts.page_data import digits
 from reports.sections.parts.stated import mostly, stated_variants
-from reports.wording.numbers import SPACE, percent, span, unsigned
+from reports.wording.numbers import SPACE, listed, percent, span, unsigned
 from reports.wording.words import spot, top_to_bottom
 
 
@@ -92,6 +92,11 @@ def section(comparison: Comparison) -> Blocks:
         f"The 2D model assumes v{SPACE}={SPACE}v₀{SPACE}(1{SPACE}−{SPACE}(r/R)^γ) along each ray. In 3D, γ "
         "is that of the closest such profile; where its error is large, no γ describes the 3D profile."
     )
+    with_modes = [name for name, of in comparison.provenance.variants.items() if of.rom.profile == "two_mode"]
+    two_modes = Paragraph(
+        f"In {listed(with_modes)} the 2D model has profiles of two modes, D (1 − (r/R)ⁿ) + B (r/R)² "
+        "(1 − (r/R)⁴), and its γ is that of the closest profile with one, as in 3D."
+    )
     stated = comparison.maps["reference_profile_exponent"]
     shown, told = stated_variants(
         comparison, lambda name: mostly(stated.sel(variant=name).values), "profiles to fit an exponent to"
@@ -105,6 +110,7 @@ def section(comparison: Comparison) -> Blocks:
     )
     return (
         opening,
+        *((two_modes,) if with_modes else ()),
         *told,
         *((any_cell,) if shown else ()),
         *(

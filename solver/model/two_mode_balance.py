@@ -77,8 +77,8 @@ def _viscous_terms(
     two_modes: TwoModes, u: Floats, area: Floats, axis_velocity: Floats, nu: float, dphi: float
 ) -> Floats:
     """Friction and exchange around, m³/s², (columns, n_phi)."""
-    wide = [np.concatenate([part[:, -1:], part, part[:, :1]], axis=1) for part in (u, area)]
+    wide, across = (np.concatenate([part[:, -1:], part, part[:, :1]], axis=1) for part in (u, area))
     damping, excess = np.empty(u.shape), np.empty(u.shape)
     around = np.empty((3, u.shape[1] + 2))
-    viscous_terms(kernel_modes(two_modes), *wide, axis_velocity, nu, dphi, around, damping, excess)
+    viscous_terms(kernel_modes(two_modes), wide, across, axis_velocity, nu, dphi, around, damping, excess)
     return np.asarray(damping * u * area + excess)

@@ -186,6 +186,11 @@ def pressure_of(case: Case) -> str:
     return "section" if has_section_pressure(case) else "row"
 
 
+def profile_of(case: Case) -> str:
+    """Name the family of a case's velocity profiles."""
+    return case.solver.profile if isinstance(case.solver, SemiImplicitSolver) else "power"
+
+
 def _description(case: Case, dataset: xr.Dataset) -> dict[str, Any]:
     return {
         "scheme": case.solver.scheme,
@@ -196,6 +201,7 @@ def _description(case: Case, dataset: xr.Dataset) -> dict[str, Any]:
         "cycles": case.solver.cycles,
         "wall_law": wall_words(case),
         "pressure": pressure_of(case),
+        "profile": profile_of(case),
         "closure": case.solver.closure,
         "viscosity_Pa_s": case.blood.viscosity,
     }

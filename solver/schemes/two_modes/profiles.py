@@ -119,7 +119,7 @@ def exchange_share(face_area: Floats, scale: float, dphi: float, f: int) -> floa
     total, n = 0.0, face_area.shape[1] - 2
     for j in range(n):
         total += 1.0 / face_area[f, j + 1]
-    return 16.0 / 3.0 * scale / (dphi * dphi) * total / n
+    return float(16.0 / 3.0 * scale / (dphi * dphi) * total / n)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)

@@ -283,7 +283,7 @@ def advance(
         total += sweeps
         if status != OK and known > 0:  # the past may be a jump, from which no state can be extrapolated
             known = 0
-            status, i, j, sweeps = step(p, s, ws, fields, value, offset, 0)
+            status, i, j, sweeps = step(p, s, ws, fields, value, offset, min(known, 2))
             total += sweeps
         known += 1
         if status != OK:
