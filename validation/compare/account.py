@@ -6,6 +6,7 @@ from cases.reading.case_file import CaseFile
 from cases.results.provenance import DeclaredBand, Provenance
 from cases.sections.case import Case
 from cases.sections.compare import Band
+from cases.sections.doubts import doubts_of
 from solver.case.locality import locality_warning
 from solver.case.periodicity import periodicity_warning
 from validation.compare.comparison import VariantRun
@@ -41,6 +42,7 @@ def warnings_of(runs: Mapping[str, VariantRun]) -> list[str]:
     found = []
     for name, run in runs.items():
         alignment, times = run.reference.alignment, run.reference.alignment.cycle_times
+        found += [f"{name}: {doubt}" for doubt in doubts_of(run.case)]
         found += [f"{name}: {note}" for note in run.reference.notes if "cut off" in note]
         found += [f"{name}: {warning}" for warning in run.reference.warnings]
         if alignment.coverage < WHOLE:
