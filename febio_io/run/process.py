@@ -15,7 +15,7 @@ from febio_io.run.log_tail import LogTail
 
 POLL = 0.2  # s between looks at the log
 GRACE = 5.0  # s that FEBio has to end when it is asked to, before it is killed
-SHOWN = 400  # characters of its last words
+SHOWN = 2000  # characters of its last words
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,15 @@ class Finished:
     last_words: str
 
 
-def run_febio(febio: Path, model: Path, threads: int | None, watch: Callable[[LogTail], None]) -> Finished:
+def run_febio(
+    febio: Path,
+    model: Path,
+    threads: int | None,
+    watch: Callable[[LogTail], None],
+    *,
+    log: Path | None = None,
+    configuration: Path | None = None,
+) -> Finished:
     """Run FEBio on a model, in the model's folder.
 
     FEBio runs in a session of its own, so that a Ctrl-C at the terminal does not reach it (it would ask there
@@ -40,6 +48,10 @@ def run_febio(febio: Path, model: Path, threads: int | None, watch: Callable[[Lo
         Threads it may use; FEBio's own choice if None.
     watch : callable
         Called again and again with what the log has told.
+    log : Path, optional
+        The log, where the model names one of its own.
+    configuration : Path, optional
+        FEBio's configuration, absolute; that beside the program else.
 
     Raises
     ------
@@ -49,13 +61,14 @@ def run_febio(febio: Path, model: Path, threads: int | None, watch: Callable[[Lo
     environment = dict(os.environ)
     if threads is not None:
         environment |= dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS"), str(threads))
-    tail = LogTail(model.with_suffix(".log"))
+    options = [] if configuration is None else ["-cnf", str(configuration)]
+    tail = LogTail(log or model.with_suffix(".log"))
     with tempfile.TemporaryFile() as said:
         process: subprocess.Popen[bytes] | None = None
         try:
             with interrupts_deferred():
                 process = subprocess.Popen(  # noqa: S603 - the program that the user chose
-                    [str(febio), "-i", model.name],
+                    [str(febio), "-i", model.name, *options],
                     cwd=model.parent,
                     env=environment,
                     stdin=subprocess.DEVNULL,
