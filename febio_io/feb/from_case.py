@@ -8,18 +8,13 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from cases.arrays import Floats
-from cases.sections.case import (
-    Case,
-    FourierSeries,
-    LocalCalcification,
-    NonReflectingOutlet,
-    PressureOutlet,
-    ResistanceOutlet,
-    VelocityInlet,
-    WindkesselOutlet,
-)
+from cases.sections.calcification import LocalCalcification
+from cases.sections.case import Case
+from cases.sections.inlet import VelocityInlet
+from cases.sections.outlet import NonReflectingOutlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
 from cases.sections.references.base import ReferenceSection
 from cases.sections.references.febio import FebioReference
+from cases.sections.sources import FourierSeries
 from cases.sections.wall import row_wall
 from cases.sections.wall_laws import LAWS
 from cases.sections.wall_laws.law import HomogeneousWall

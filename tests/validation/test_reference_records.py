@@ -8,7 +8,7 @@ from small_case import RUNS
 from tube_plot import write_tube
 from tubes import Tube
 
-from cases.sections.case import RecordFile
+from cases.sections.references.febio import RecordFile
 from febio_io.errors import FebioFileError, FebioFormatError
 from febio_io.xplt import open_plot
 from validation.errors import UnusableReferenceError
