@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from reports.figures.two_processes import draw, helper
-from reports.gallery import Entry, entry, gallery_place, render_gallery
+from reports.html.gallery import Entry, entry, gallery_place, render_gallery
 from reports.pages import rendered, write_pages
 from reports.result.load import load
 from reports.sections.content import report

@@ -15,8 +15,8 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from cases.shell.interrupts import interrupts_told_to
 from febio_io.errors import FebioFileError, FebioKeyError
-from febio_io.views.file_names import safe_name
 from febio_io.views.grids import to_pyvista
+from febio_io.views.staging import safe_name
 from febio_io.xplt import Plot, Variable
 from febio_io.xplt.dictionary import SectionName
 from febio_io.xplt.whole import quantities, regions_in, values_in

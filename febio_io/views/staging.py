@@ -1,5 +1,6 @@
-"""Writing files so that each appears whole or not at all."""
+"""Files of an export: how they are called, and that each appears whole or not at all."""
 
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -46,3 +47,19 @@ def staged(folder: Path, written: list[Path]) -> Iterator[Path]:
     finally:
         if made and not written and folder.is_dir():
             folder.rmdir()
+
+
+def safe_name(name: str) -> str:
+    """Replace what not every file system takes by underscores.
+
+    Parameters
+    ----------
+    name : str
+        Any text.
+
+    Returns
+    -------
+    str
+        Letters, digits, dots, dashes and underscores; not empty, and neither dot nor underscore at an end.
+    """
+    return re.sub(r"[^\w.-]+", "_", name).strip("._") or "unnamed"

@@ -6,7 +6,7 @@ from cases.results.metric_row import MetricRow, Status
 from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
-from reports.sections.parts import metric_rows, pooled, trust
+from reports.sections.parts import page_data, pooled, trust
 from reports.wording.numbers import ABSENT, counted, listed, rounded
 from reports.wording.words import limit, measure, place, quantity_words, statistic_words
 
@@ -205,7 +205,7 @@ def section(comparison: Comparison) -> Blocks:
             "Every figure of this comparison",
             "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
             "click on a heading sorts.",
-            {"metrics": metric_rows.columns(comparison.metrics)},
+            {"metrics": page_data.metric_columns(comparison.metrics)},
         )
     )
     return tuple(blocks)

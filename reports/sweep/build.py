@@ -5,7 +5,7 @@ from pathlib import Path
 
 from reports.blocks import Report
 from reports.figures.two_processes import draw
-from reports.gallery import RANKS, Entry
+from reports.html.gallery import RANKS, Entry
 from reports.pages import rendered, write_pages
 from reports.sweep.amounts import DESIGNS
 from reports.sweep.folder import STUDY, Sweep, load_sweep

@@ -17,7 +17,7 @@ from validation.mapping.state import Mapper
 from validation.mapping.surface import area_across_axis, flow_along_axis, flux
 from validation.mapping.wall_radius import interface_radius
 from validation.metrics.curved_section import curved_flow_rate
-from validation.reference.mesh.frame import frame
+from validation.reference.mesh.model import frame
 
 COARSE = Tube(sectors=12, rings=4, stacks=10, layers=2)
 KINDS = [
