@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from reports.blocks import Column, Table
+from reports.blocks import Column, Table, prose
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.dominance import AZIMUTHAL, RADIAL, RATIOS, ratio
@@ -55,8 +55,7 @@ def section(comparison: Comparison) -> Blocks:
         "What the 2D model assumes of the flow, and how far each model is from it: the largest figures over "
         f"the artery and the cycle. {ABSENT}: the model has none by construction, or it was not measured.",
         (
-            Column("assumption", "prose"),
-            Column("measured by", "prose"),
+            *prose("assumption", "measured by"),
             *(Column(model, "number", name) for name in comparison.variants for model in ("3D", "2D")),
         ),
         tuple(

@@ -3,7 +3,7 @@
 from collections import Counter
 
 from cases.results.metric_row import MetricRow, Status
-from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings
+from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings, numbers, prose
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts import page_data, pooled, trust
@@ -158,11 +158,8 @@ def _band_table(comparison: Comparison) -> Table:
         (
             Column("variant"),
             Column("verdict", "status"),
-            Column("quantity", "prose"),
-            Column("statistic", "prose"),
-            Column("error", "number"),
-            Column("limit", "number"),
-            Column("of limit", "number"),
+            *prose("quantity", "statistic"),
+            *numbers("error", "limit", "of limit"),
             Column("reason for the limit", "prose"),
         ),
         rows,

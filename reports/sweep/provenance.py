@@ -3,7 +3,7 @@
 import numpy as np
 
 from cases.results.sweep import KeptOutput, VariedParameter
-from reports.blocks import Block, Column, Listing, Paragraph, Section, Table
+from reports.blocks import Block, Column, Listing, Paragraph, Section, Table, numbers, prose
 from reports.sweep.amounts import DESIGNS, amount, is_error
 from reports.sweep.folder import FAILED, Sweep
 from reports.wording.numbers import ABSENT, listed, rounded
@@ -56,8 +56,7 @@ def _parameters(sweep: Sweep) -> Table:
         "parameters",
         "What was varied; all other inputs are those of the base case.",
         (
-            Column("parameter", "prose"),
-            Column("key", "prose"),
+            *prose("parameter", "key"),
             Column("unit"),
             Column("base case", "number"),
             Column("values", "prose"),
@@ -83,11 +82,7 @@ def _outputs(sweep: Sweep) -> Table:
             Column("output", "prose"),
             Column("variant"),
             Column("unit"),
-            Column("least", "number"),
-            Column("2.5 %", "number"),
-            Column("median", "number"),
-            Column("97.5 %", "number"),
-            Column("largest", "number"),
+            *numbers("least", "2.5 %", "median", "97.5 %", "largest"),
         ),
         tuple(
             (output.label, variant, output.unit, *figures(variant, output))

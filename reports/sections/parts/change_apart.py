@@ -1,6 +1,6 @@
 """Distance of the changes by calcification in both models, over all cells and states."""
 
-from reports.blocks import Column, Table
+from reports.blocks import Column, Table, numbers
 from reports.result.load import Comparison
 from reports.wording.numbers import DIFFERENCE_UNITS, percent, rounded, unsigned, with_unit
 from reports.wording.words import baseline_words, quantity_words
@@ -26,13 +26,7 @@ def table(comparison: Comparison, changed: tuple[str, ...]) -> Table | None:
         "Change by calcification over all cells and states: its RMS size in each model, and the RMS distance "
         "of the two changes as a share of the 3D one. 0 % is the same change everywhere; 100 % is no better "
         f"than to expect none (variant minus {baseline_words(comparison)}).",
-        (
-            Column("variant"),
-            Column("quantity", "prose"),
-            Column("3D", "number"),
-            Column("2D", "number"),
-            Column("apart", "number"),
-        ),
+        (Column("variant"), Column("quantity", "prose"), *numbers("3D", "2D", "apart")),
         tuple(rows),
         rule_by=0,
     )

@@ -2,7 +2,7 @@
 
 from cases.results.metric_row import MetricRow
 from cases.statistics import PLACED
-from reports.blocks import Column, Table
+from reports.blocks import Column, Table, numbers, prose
 from reports.result.load import Comparison
 from reports.wording.numbers import ABSENT, percent, rounded, with_unit
 from reports.wording.words import field_of, place, quantity_words, statistic_words
@@ -28,15 +28,7 @@ def table(comparison: Comparison, placed: frozenset[str]) -> Table | None:
     return Table(
         "further",
         "Further figures of the whole artery and cycle; metrics.csv holds all there are.",
-        (
-            Column("variant"),
-            Column("quantity", "prose"),
-            Column("statistic", "prose"),
-            Column("3D", "number"),
-            Column("2D", "number"),
-            Column("error", "number"),
-            Column("at"),
-        ),
+        (Column("variant"), *prose("quantity", "statistic"), *numbers("3D", "2D", "error"), Column("at")),
         rows,
         rule_by=0,
     )

@@ -1,7 +1,7 @@
 """The errors over all cells and states, a line for each quantity and variant."""
 
 from cases.results.metric_row import MetricRow
-from reports.blocks import Column, Table
+from reports.blocks import Column, Table, numbers
 from reports.result.load import Comparison
 from reports.wording.numbers import ABSENT, DIFFERENCE_UNITS, SPACE, percent, rounded, unsigned, with_unit
 from reports.wording.words import place, quantity_words
@@ -43,12 +43,7 @@ def table(comparison: Comparison) -> Table | None:
         (
             Column("variant"),
             Column("quantity", "prose"),
-            Column("bias", "number"),
-            Column("its 95 %", "number"),
-            Column("scatter", "number"),
-            Column("RMS error", "number"),
-            Column("RMS 2D − 3D", "number"),
-            Column("largest error", "number"),
+            *numbers("bias", "its 95 %", "scatter", "RMS error", "RMS 2D − 3D", "largest error"),
             Column("found at"),
         ),
         rows,
