@@ -218,9 +218,8 @@ def read_active_elements(state: StateData, mesh: Mesh) -> Flags:
     chunk = flags[Tag.ELEMENT_STATE]
     values = state.source.array(chunk, "u4")
     if len(values) != mesh.n_elements:
-        raise state.source.error(
+        raise state.source.error_in(
+            chunk,
             f"flags of {len(values)} elements in state {state.number}, whose mesh has {mesh.n_elements}",
-            chunk.start,
-            chunk.tag,
         )
     return (values & 1).astype(bool)
