@@ -166,11 +166,6 @@ def parse_states(text: str, count: int) -> list[int]:
     count : int
         How many there are.
 
-    Returns
-    -------
-    list of int
-        The numbers.
-
     Raises
     ------
     FebioKeyError

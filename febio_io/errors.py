@@ -69,11 +69,6 @@ def nearest_first(wanted: str, names: Iterable[str]) -> list[str]:
         The name that was not found.
     names : iterable of str
         The names there are.
-
-    Returns
-    -------
-    list of str
-        The names, the most similar first.
     """
     matcher = SequenceMatcher(b=wanted.lower())
 

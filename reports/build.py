@@ -20,11 +20,6 @@ def write_reports(directory: Path) -> tuple[Path, Path]:
     directory : Path
         Holds comparison.nc, metrics.json and provenance.json, and ablation.json if there is one.
 
-    Returns
-    -------
-    tuple of Path
-        report.html and report.pdf.
-
     Raises
     ------
     ReportError

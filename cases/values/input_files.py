@@ -66,11 +66,6 @@ def read_file(path: Path, largest: int) -> bytes:
     largest : int
         How many bytes it may have.
 
-    Returns
-    -------
-    bytes
-        All that it holds.
-
     Raises
     ------
     UnreadableFileError

@@ -77,11 +77,6 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
     choices : Choices
         What the case leaves open.
 
-    Returns
-    -------
-    ArteryModel
-        The model.
-
     Raises
     ------
     FebioModelError

@@ -36,11 +36,6 @@ def find_febio(stated: str | None) -> Path:
         What the user states: a path, or a name on PATH. Else the environment variable FEBIO says it, else it
         is febio4 on PATH.
 
-    Returns
-    -------
-    Path
-        The absolute path of the program.
-
     Raises
     ------
     FebioRunError

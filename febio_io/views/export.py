@@ -42,11 +42,6 @@ def export_plot(
     advance : callable, optional
         Called whenever a state has been written.
 
-    Returns
-    -------
-    list of Path
-        The files.
-
     Raises
     ------
     FebioKeyError

@@ -23,11 +23,6 @@ def staged(folder: Path, written: list[Path]) -> Iterator[Path]:
     written : list of Path
         Takes in the files' paths. Those that tell of others (.pvd) are moved last.
 
-    Yields
-    ------
-    Path
-        The temporary folder.
-
     Raises
     ------
     FebioFileError

@@ -75,11 +75,6 @@ def read_mesh(source: Source, mesh: Chunk, version: int) -> Mesh:
     version : int
         Version of the file.
 
-    Returns
-    -------
-    Mesh
-        The mesh.
-
     Raises
     ------
     FebioFormatError

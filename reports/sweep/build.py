@@ -33,11 +33,6 @@ def write_sweep_page(directory: Path) -> tuple[Path, Path]:
     directory : Path
         Holds study.json and samples/.
 
-    Returns
-    -------
-    tuple of Path
-        index.html and index.pdf.
-
     Raises
     ------
     ReportError
