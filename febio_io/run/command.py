@@ -13,8 +13,7 @@ from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
 from cases.shell.terminal import progress
 from febio_io.errors import FebioFileError
 from febio_io.feb.structure import Contents, read_structure
-from febio_io.run.log_tail import LogTail
-from febio_io.run.process import FebioRunError, Finished, find_febio, run_febio
+from febio_io.run.process import FebioRunError, Finished, LogTail, find_febio, run_febio
 from febio_io.text.log import Log, read_log
 from febio_io.xplt import open_plot
 

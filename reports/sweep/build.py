@@ -1,11 +1,10 @@
 """The page of a sweep, written beside its samples."""
 
-from collections import Counter
 from pathlib import Path
 
 from reports.blocks import Report
 from reports.figures.two_processes import draw
-from reports.html.gallery import RANKS, Entry
+from reports.html.gallery import Entry, summed_up
 from reports.pages import rendered, write_pages
 from reports.sweep.amounts import DESIGNS
 from reports.sweep.folder import STUDY, Sweep, load_sweep
@@ -50,24 +49,9 @@ def write_sweep_entry(directory: Path) -> Entry:
     html, pdf = rendered(content, drawings)
     write_pages({directory / HTML: html, directory / PDF: pdf})
     bands = all_held(sweep)
-    counts = Counter(str(status(found)) for found in bands)
-    picture = next((figure for figure in content.figures() if figure.key.startswith("held-")), None)
-    return Entry(
-        directory,
-        content.title,
-        content.identity,
-        headline(sweep, bands),
-        tuple(sentence(found, sweep.study.parameters) for found in bands),
-        tuple((word, counts[word]) for word in RANKS if counts[word]),
-        (
-            min((RANKS[status(found)] for found in bands), default=len(RANKS)),
-            -max((found.furthest for found in bands), default=0.0),
-        ),
-        drawings[picture.key] if picture else "",
-        picture.alt if picture else "",
-        HTML,
-        PDF,
-    )
+    said = (headline(sweep, bands), tuple(sentence(found, sweep.study.parameters) for found in bands))
+    judged = ([status(found) for found in bands], [found.furthest for found in bands])
+    return summed_up(directory, content, drawings, said, judged, "held-", (HTML, PDF))
 
 
 def sweep_report(sweep: Sweep) -> Report:
