@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from cases.arrays import Floats
-from cases.sections.references.base import MeshReference
-from cases.sections.references.directions import Vector, components
+from cases.sections.references.base import MeshReference, Vector, components
 from validation.errors import UnusableReferenceError
 from validation.mapping.interpolation import topology
 from validation.mapping.mesh import Block, LumenMesh, lumen_mesh, padded
