@@ -62,13 +62,6 @@ class FebioKeyError(FebioError, LookupError):
 
 def nearest_first(wanted: str, names: Iterable[str]) -> list[str]:
     """Sort names, each once, by their likeness to the wanted one.
-
-    Parameters
-    ----------
-    wanted : str
-        The name that was not found.
-    names : iterable of str
-        The names there are.
     """
     matcher = SequenceMatcher(b=wanted.lower())
 

@@ -19,15 +19,6 @@ Path = tuple[str | int, ...]
 def problems_of(error: ValidationError, schema: type[Section], root: Node) -> list[Problem]:
     """Describe what the schema found, with the lines of the file.
 
-    Parameters
-    ----------
-    error : pydantic.ValidationError
-        What `schema` found in ``root.plain()``.
-    schema : type
-        The schema.
-    root : Node
-        The checked tree.
-
     Returns
     -------
     list of Problem

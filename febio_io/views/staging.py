@@ -47,11 +47,6 @@ def staged(folder: Path, written: list[Path]) -> Iterator[Path]:
 def safe_name(name: str) -> str:
     """Replace what not every file system takes by underscores.
 
-    Parameters
-    ----------
-    name : str
-        Any text.
-
     Returns
     -------
     str

@@ -120,15 +120,6 @@ def block_shape(variable: Variable, mesh: Mesh, region: Region | None) -> tuple[
 def find_blocks(state: StateData, variable: Variable, mesh: Mesh) -> dict[int, Chunk]:
     """Find a variable's blocks of values and check their sizes.
 
-    Parameters
-    ----------
-    state : StateData
-        The state.
-    variable : Variable
-        The variable.
-    mesh : Mesh
-        The state's mesh.
-
     Returns
     -------
     dict of int to Chunk

@@ -66,15 +66,6 @@ _EDGE = _ItemTags(
 def read_mesh(source: Source, mesh: Chunk, version: int) -> Mesh:
     """Read a mesh.
 
-    Parameters
-    ----------
-    source : Source
-        The file, or the inflated mesh.
-    mesh : Chunk
-        The mesh's chunk.
-    version : int
-        Version of the file.
-
     Raises
     ------
     FebioFormatError

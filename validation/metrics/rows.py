@@ -231,11 +231,6 @@ def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -
 
 def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) -> Iterator[MetricRow]:
     """Tell what a simulation took, where its log does; the reduced model's wall times differ from run to run.
-
-    Parameters
-    ----------
-    rom, reference : dict
-        Descriptions of both models.
     """
     cost = reference.get("cost")
     if cost is None:
