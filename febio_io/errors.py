@@ -61,8 +61,7 @@ class FebioKeyError(FebioError, LookupError):
 
 
 def nearest_first(wanted: str, names: Iterable[str]) -> list[str]:
-    """Sort names, each once, by their likeness to the wanted one.
-    """
+    """Sort names, each once, by their likeness to the wanted one."""
     matcher = SequenceMatcher(b=wanted.lower())
 
     def unlikeness(name: str) -> float:

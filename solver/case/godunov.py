@@ -108,13 +108,7 @@ def _columns(model: Model, steady: SteadyState) -> State:
 
 
 def walk_godunov(case: Case, model: Model, times: Floats, kept: Kept | None = None) -> Iterator[Stop]:
-    """Run a case through the steps nearest to ``times`` (s), the first its start or where ``kept`` was left.
-
-    Raises
-    ------
-    SolverError
-        As :func:`setup_of`, the march to the steady start, the scheme and the case's limits raise it.
-    """
+    """Run a case through the steps nearest to ``times`` (s), from its start or where ``kept`` was left."""
     setup = setup_of(case, model)
     state = initial_columns(case, model, setup) if kept is None else state_of(State, kept)
     begin = 0 if kept is None else int(kept["steps"])

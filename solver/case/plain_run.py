@@ -39,11 +39,6 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
         Increasing; the first is where the run starts.
     reached : callable
         Called at each of them.
-
-    Raises
-    ------
-    SolverError
-        As the march to the steady start and the scheme raise it.
     """
     grid, computed = model.grid, fewer_rows(model)
     n_phi = computed.grid.n_phi

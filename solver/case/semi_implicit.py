@@ -14,13 +14,7 @@ from solver.model.parameters import Model, State
 
 
 def walk_semi_implicit(case: Case, model: Model, times: Floats, kept: Kept | None = None) -> Iterator[Stop]:
-    """Run a case through ``times`` (s); the first is where it starts, or where ``kept`` was left.
-
-    Raises
-    ------
-    SolverError
-        As the march to the steady start, the scheme and the case's limits raise it.
-    """
+    """Run a case through ``times`` (s); the first is where it starts, or where ``kept`` was left."""
     start = initial_state(case, model) if kept is None else state_of(State, kept)
     first_step = None if kept is None else float(kept["next_step"])
     monitor = monitor_of(case, model, None if kept is None else kept["history"])
