@@ -9,7 +9,7 @@ from cases.sections.case import Case
 from solver.case.model import error_tolerance, initial_state
 from solver.case.semi_implicit import azimuthal_flux_of
 from solver.geometry.symmetry import all_rows, fewer_rows
-from solver.marching.choice import stepper_of
+from solver.marching.section_stepper import stepper_of
 from solver.marching.semi_implicit import equal_steps, implicitness
 from solver.marching.walk import require_exponents
 from solver.model.parameters import Model

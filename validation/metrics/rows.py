@@ -230,7 +230,7 @@ def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -
 
 
 def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) -> Iterator[MetricRow]:
-    """Tell what a simulation took, where its log does; wall times of the reduced model differ between runs."""
+    """Tell what a simulation took, where its log does; the 2D model's wall times differ from run to run."""
     cost = reference.get("cost")
     if cost is None:
         return
