@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from cases.shell.command import COMPLETE, concluded
-from febio_io.errors import FebioFileError, FebioFormatError
+from febio_io.errors import FebioFileError, FebioFormatError, FebioKeyError
 from febio_io.feb.structure import read_structure
 from febio_io.feb.summary import model_lines, problem_lines, summarize_model
 from febio_io.files import open_file, text_of
-from febio_io.selection import parse_states
 from febio_io.text.data_records import looks_like_record, read_data_record
 from febio_io.text.log import LOOKED_AT, looks_like_log, read_log
 from febio_io.text.summary import log_lines, record_lines, summarize_log, summarize_record
@@ -163,3 +162,43 @@ def _shown(summary: dict[str, Any], lines: Iterator[str], as_json: bool) -> list
 def _written(paths: list[Path], as_json: bool) -> list[str]:
     names = [str(path) for path in paths]
     return [json.dumps({"written": names}, indent=2)] if as_json else [f"wrote {name}" for name in names]
+
+
+RANGE = re.compile(r"(-?\d{1,9})(?::(-?\d{1,9})(?::(\d{1,9}))?)?")
+
+
+def parse_states(text: str, count: int) -> list[int]:
+    """Read a list of numbers and ranges.
+
+    Parameters
+    ----------
+    text : str
+        E.g. "0,5,10:20,-1" or "0:-1:10": numbers from 0, or from the end if negative; FIRST:LAST and
+        FIRST:LAST:STEP are ranges that include the last. Each number counts once, in increasing order.
+    count : int
+        How many there are.
+
+    Raises
+    ------
+    FebioKeyError
+        If the text is no such list, or a number is not there.
+    """
+    chosen: set[int] = set()
+    for part in text.split(","):
+        match = RANGE.fullmatch(part.strip())
+        if not match or match[3] == "0":
+            raise FebioKeyError(
+                f"states {part.strip()!r}: a number, FIRST:LAST or FIRST:LAST:STEP is expected"
+            )
+        first = _number(match[1], count)
+        last = _number(match[2], count) if match[2] else first
+        chosen.update(range(first, last + 1, int(match[3] or 1)))
+    return sorted(chosen)
+
+
+def _number(text: str, count: int) -> int:
+    number = int(text)
+    if not -count <= number < count:
+        have = f"0 to {count - 1}" if count else "none"
+        raise FebioKeyError(f"state {number} is not there; there are {have}")
+    return number % count

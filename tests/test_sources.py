@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from solver.kernel_cache import KERNELS
-from solver.sources import ROOT, sources_digest
+from solver.kernel_cache import KERNELS, ROOT, sources_digest
 from validation.runs.sources import DETERMINANTS
 
 PACKAGES = ("cases", "solver", "febio_io", "validation", "reports")

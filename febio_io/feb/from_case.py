@@ -1,6 +1,7 @@
 """From a checked case to FEBio's model of it."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -8,26 +9,21 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from cases.arrays import Floats
-from cases.sections.case import (
-    Case,
-    FourierSeries,
-    LocalCalcification,
-    NonReflectingOutlet,
-    PressureOutlet,
-    ResistanceOutlet,
-    VelocityInlet,
-    WindkesselOutlet,
-)
+from cases.sections.calcification import LocalCalcification
+from cases.sections.case import Case
+from cases.sections.inlet import VelocityInlet
+from cases.sections.outlet import NonReflectingOutlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
 from cases.sections.references.base import ReferenceSection
 from cases.sections.references.febio import FebioReference
+from cases.sections.sources import FourierSeries
 from cases.sections.wall import row_wall
 from cases.sections.wall_laws import LAWS
 from cases.sections.wall_laws.law import HomogeneousWall
 from cases.values.waveform_file import Waveform
-from febio_io.feb.load_curves import Signal, cycles_after_ramp, ramp_curve
 from febio_io.feb.model import (
     ArteryModel,
     Blood,
+    Curve,
     FebioModelError,
     Frame,
     MeshSize,
@@ -40,6 +36,44 @@ from febio_io.feb.model import (
     Wall,
     Windkessel,
 )
+
+RAMP_POINTS = 51
+SPACING = 2e-3  # s, in a heartbeat: the waveform's curvature is followed to 1e-3 of its height
+FEWEST_PER_CYCLE = 200
+
+Signal = Callable[[Floats], Floats]
+
+
+def ramp_curve(duration: float) -> Curve:
+    """Half a cosine from 0 to 1 over a duration (s)."""
+    share = np.linspace(0.0, 1.0, RAMP_POINTS)
+    return Curve(duration * share, 0.5 - 0.5 * np.cos(np.pi * share))
+
+
+def cycles_after_ramp(signal: Signal, period: float, cycles: int, ramp: float) -> Curve:
+    """Give a periodic signal that is reached by a ramp.
+
+    Parameters
+    ----------
+    signal : callable
+        From times (n,) in [0, period) to values (n,).
+    period : float
+        Length of the cycle, s.
+    cycles : int
+        How many follow the ramp.
+    ramp : float
+        Duration of the ramp, s: half a cosine from 0 to the signal's first value.
+    """
+    start = ramp_curve(ramp)
+    per_cycle = max(period / min(SPACING, period), FEWEST_PER_CYCLE)
+    times = np.linspace(0.0, cycles * period, round(cycles * per_cycle) + 1)[1:]
+    # The last instant of each cycle is the first of the next.
+    phase = np.where(np.isclose(times % period, period, rtol=0, atol=1e-9 * period), 0.0, times % period)
+    first = float(signal(np.zeros(1))[0])
+    return Curve(
+        np.concatenate([start.times, ramp + times]), np.concatenate([first * start.values, signal(phase)])
+    )
+
 
 STEPS_PER_CYCLE = 200
 RAMP_SHARE = 0.25  # of a cycle, where no reference tells when the cycles start
@@ -81,11 +115,6 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
         ``time_offset``.
     choices : Choices
         What the case leaves open.
-
-    Returns
-    -------
-    ArteryModel
-        The model.
 
     Raises
     ------

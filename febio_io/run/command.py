@@ -16,9 +16,7 @@ from febio_io.feb.structure import Contents, read_structure
 from febio_io.feb.summary import problem_lines
 from febio_io.files import read_text
 from febio_io.run.endings import explain_ending
-from febio_io.run.executable import FebioRunError, find_febio
-from febio_io.run.log_tail import LogTail
-from febio_io.run.process import Finished, run_febio
+from febio_io.run.process import FebioRunError, Finished, LogTail, find_febio, run_febio
 from febio_io.text.log import Log, read_log
 from febio_io.xplt import open_plot
 

@@ -1,17 +1,102 @@
 """One run of FEBio: started beside its model, watched, and ended with everything it started."""
 
 import os
+import re
+import shutil
 import signal
 import subprocess
 import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from cases.shell.interrupts import interrupts_deferred
-from febio_io.run.executable import FebioRunError
-from febio_io.run.log_tail import LogTail
+from febio_io.errors import FebioError
+
+CONVERGED = re.compile(rb"-+ converged at time : ([-+0-9.eE]{1,30})\s*")
+FAILED = b"------- failed to converge"
+
+
+@dataclass
+class LogTail:
+    """What the log has told so far; :meth:`read_on` takes in what has been written since.
+
+    Attributes
+    ----------
+    path : Path
+        The log; it need not exist yet.
+    steps : int
+        Time steps that converged.
+    retries : int
+        Attempts that failed.
+    time : float
+        Time of the last converged step, s.
+    """
+
+    path: Path
+    steps: int = 0
+    retries: int = 0
+    time: float = 0.0
+    _position: int = field(default=0, repr=False)
+    _rest: bytes = field(default=b"", repr=False)
+
+    def read_on(self) -> None:
+        """Read the lines that have been completed since the last call."""
+        try:
+            with self.path.open("rb") as stream:
+                stream.seek(self._position)
+                new = stream.read()
+        except FileNotFoundError:
+            return
+        self._position += len(new)
+        *lines, self._rest = (self._rest + new).split(b"\n")
+        for line in lines:
+            if match := CONVERGED.fullmatch(line):
+                self.steps += 1
+                self.time = float(match[1])
+            elif line.startswith(FAILED):
+                self.retries += 1
+
+
+NAME = "febio4"
+VARIABLE = "FEBIO"
+INSTALL = (
+    "Install FEBio 4 (https://febio.org/downloads, or build https://github.com/febiosoftware/FEBio), then "
+    f"put the folder of {NAME} on PATH, set the environment variable {VARIABLE} to the program, or state "
+    "--febio PATH"
+)
+
+
+class FebioRunError(FebioError):
+    """FEBio cannot be run, or did not end as it should."""
+
+
+def find_febio(stated: str | None) -> Path:
+    """Find FEBio's program.
+
+    Parameters
+    ----------
+    stated : str or None
+        What the user states: a path, or a name on PATH. Else the environment variable FEBIO says it, else it
+        is febio4 on PATH.
+
+    Raises
+    ------
+    FebioRunError
+        If there is none; the message says what to install.
+    """
+    wanted, origin = stated, "--febio"
+    if wanted is None and (configured := os.environ.get(VARIABLE)):
+        wanted, origin = configured, f"the environment variable {VARIABLE}"
+    found = shutil.which(wanted or NAME)
+    if found is not None:
+        return Path(found).absolute()
+    if wanted is None:
+        raise FebioRunError(f"FEBio is not installed: there is no {NAME} on PATH. {INSTALL}")
+    what = "is a folder" if Path(wanted).is_dir() else "is no program that can be run"
+    raise FebioRunError(f"{wanted}, stated by {origin}, {what}. {INSTALL}")
+
 
 POLL = 0.2  # s between looks at the log
 GRACE = 5.0  # s that FEBio has to end when it is asked to, before it is killed

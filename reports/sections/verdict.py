@@ -3,10 +3,10 @@
 from collections import Counter
 
 from cases.results.metric_row import MetricRow, Status
-from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings
+from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings, numbers, prose
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
-from reports.sections.parts import metric_rows, pooled, trust
+from reports.sections.parts import page_data, pooled, trust
 from reports.wording.numbers import ABSENT, counted, listed, rounded
 from reports.wording.words import limit, measure, place, quantity_words, statistic_words
 
@@ -158,11 +158,8 @@ def _band_table(comparison: Comparison) -> Table:
         (
             Column("variant"),
             Column("verdict", "status"),
-            Column("quantity", "prose"),
-            Column("statistic", "prose"),
-            Column("error", "number"),
-            Column("limit", "number"),
-            Column("of limit", "number"),
+            *prose("quantity", "statistic"),
+            *numbers("error", "limit", "of limit"),
             Column("reason for the limit", "prose"),
         ),
         rows,
@@ -205,7 +202,7 @@ def section(comparison: Comparison) -> Blocks:
             "Every figure of this comparison",
             "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
             "click on a heading sorts.",
-            {"metrics": metric_rows.columns(comparison.metrics)},
+            {"metrics": page_data.metric_columns(comparison.metrics)},
         )
     )
     return tuple(blocks)

@@ -14,8 +14,7 @@ from xplt_samples import sample_file
 from febio_io.run import process
 from febio_io.run.command import main
 from febio_io.run.endings import explain_ending
-from febio_io.run.executable import FebioRunError, find_febio
-from febio_io.run.log_tail import LogTail
+from febio_io.run.process import FebioRunError, LogTail, find_febio
 from febio_io.xplt import open_plot
 
 ROOT = Path(__file__).parents[2]

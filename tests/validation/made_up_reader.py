@@ -10,7 +10,7 @@ from tubes import Tube
 from validation.mapping.interpolation import topology
 from validation.mapping.mesh import padded
 from validation.mapping.pressure import element_centres
-from validation.reference.mesh.frame import frame
+from validation.reference.mesh.model import frame
 from validation.reference.mesh.read import mesh_kind
 from validation.reference.mesh.series import Account, MeshState, SeriesMesh
 

@@ -23,8 +23,7 @@ from hypothesis import strategies as st
 from cases.fields import FIELDS
 from cases.results.metric_row import COLUMNS, metric_row
 from validation.metrics import rows as metrics
-from validation.metrics.phase_lag import phase_lag
-from validation.metrics.quantities import CYCLE_QUANTITIES
+from validation.metrics.quantities import CYCLE_QUANTITIES, phase_lag
 from validation.metrics.rows import to_frame
 
 AFFECTED = {

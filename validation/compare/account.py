@@ -10,7 +10,7 @@ from cases.sections.doubts import doubts_of
 from solver.case.locality import locality_warning
 from solver.case.periodicity import periodicity_warning
 from validation.compare.comparison import VariantRun
-from validation.metrics.bootstrap import SEED
+from validation.metrics.confidence import SEED
 from validation.reference.alignment import WHOLE
 from validation.runs.instants import nearest_states, wanted_instants
 from validation.runs.provenance import provenance

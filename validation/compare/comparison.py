@@ -11,7 +11,8 @@ import xarray as xr
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
 from cases.results.comparison_file import CALCIFIED, WALL_STIFFNESS, variable
-from cases.sections.case import Case, NoCalcification
+from cases.sections.calcification import NoCalcification
+from cases.sections.case import Case
 from solver.case.model import calcified_cells
 from solver.runs.result import CONVENTIONS
 from validation.errors import ValidationError

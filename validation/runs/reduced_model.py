@@ -8,7 +8,8 @@ import numpy as np
 import xarray as xr
 
 from cases.arrays import Floats
-from cases.sections.case import Case, MembraneWall
+from cases.sections.case import Case
+from cases.sections.wall import MembraneWall
 from solver.case.periodicity import cycle_change
 from solver.case.run import run_case
 from solver.case.wall import has_section_pressure

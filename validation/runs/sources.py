@@ -3,7 +3,7 @@
 from functools import cache
 from typing import Literal
 
-from solver.sources import ROOT, sources_digest
+from solver.kernel_cache import ROOT, sources_digest
 
 Kind = Literal["reduced model", "reference", "sweep", "tables"]
 
@@ -18,7 +18,6 @@ SOLVER = (
     "solver/marching",
     "solver/model",
     "solver/schemes",
-    "solver/sources.py",
     "solver/wall",
 )
 CELLS = (
