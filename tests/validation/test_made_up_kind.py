@@ -42,7 +42,8 @@ def compared(path, *options):
     )
 
 
-@pytest.mark.parametrize(("values", "share"), [("nodes", 0.05), ("cells", 0.1)])
+# a velocity constant in cells says nothing of its slope at the wall, and with 4 rings little of its mean
+@pytest.mark.parametrize(("values", "share"), [("nodes", 0.05), ("cells", None)])
 def test_a_kind_from_outside_is_compared(tmp_path, values, share):
     path, output = tube_case(tmp_path, values=values), tmp_path / "out"
     done = compared(path, "--output", str(output))
@@ -53,14 +54,14 @@ def test_a_kind_from_outside_is_compared(tmp_path, values, share):
     x, phi = cells.x[:, None], cells.phi[None, :]
     for name, exact, within in (
         ("radius", TUBE.wall(x, phi), 5e-3),
-        ("mean_velocity", TUBE.mean_velocity(x, phi), share),
         ("pressure", TUBE.pressure(x), 1e-5),
+        *([("mean_velocity", TUBE.mean_velocity(x, phi), share)] if share else []),
     ):
         assert np.max(np.abs(found[f"reference_{name}"].to_numpy() / exact - 1)) < within, name
     provenance = json.loads((output / "provenance.json").read_text())
     facts = provenance["variants"]["none"]["reference"]
     assert (facts["kind"], facts["software"], facts["states_compared"]) == ("tube", "formulas", 5)
-    assert any("made up" in note for note in provenance["notes"])
+    assert any("made up" in warning for warning in provenance["warnings"])
     assert any("no solver" in note for note in provenance["notes"])
 
 
@@ -75,5 +76,7 @@ def test_checks_and_messages_are_those_of_every_kind(tmp_path):
 
 
 def test_it_left_with_its_process(tmp_path):
-    with pytest.raises(CaseFileError, match=r"reference\.kind: tube; allowed: febio, tables"):
+    with pytest.raises(
+        CaseFileError, match=r"reference\.kind: tube; did you mean tables\? allowed: febio, tables"
+    ):
         load_case_file(tube_case(tmp_path))

@@ -9,7 +9,16 @@ Kind = Literal["reduced model", "reference", "sweep", "tables"]
 
 LIBRARIES = ("numba", "numpy", "scipy", "xarray")
 
-CASE = ("cases/arrays.py", "cases/errors.py", "cases/fields.py", "cases/sections", "cases/values")
+CASE = (
+    "cases/arrays.py",
+    "cases/errors.py",
+    "cases/fields.py",
+    "cases/quantities.py",
+    "cases/sections",
+    "cases/shell/errors.py",
+    "cases/statistics.py",
+    "cases/values",
+)
 SOLVER = (
     "solver/errors.py",
     "solver/geometry",
@@ -56,6 +65,7 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
         *REDUCED_MODEL,
         *REFERENCE,
         "cases/reading",
+        "cases/results",
         "solver/runs/batch.py",
         "validation/ablation/ladder.py",
         "validation/metrics",
@@ -65,8 +75,10 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
     "tables": (
         *SOLVER,
         "cases/arrays.py",
+        "cases/shell/errors.py",
         "reference_data/waveforms/thesis_inlet.csv",
         "validation/__init__.py",
+        "reports/figures/plots.py",
         "validation/tables",
     ),
 }

@@ -68,8 +68,7 @@ def mesh_kind(
         case: Case, rays: Rays, progress: Progress | None = None, alignment: Alignment | None = None
     ) -> Reference:
         with opened(case) as (series, stated):
-            chosen = _alignment(series, stated, case) if alignment is None else alignment
-            return _read(series, stated, case, rays, progress, chosen)
+            return _read(series, stated, case, rays, progress, alignment)
 
     return ReferenceKind(align_case, read_case, how_to_make)
 
@@ -95,9 +94,11 @@ def _read(
     case: Case,
     rays: Rays,
     progress: Progress | None,
-    alignment: Alignment,
+    alignment: Alignment | None,
 ) -> Reference:
     model = mesh_model(series, stated)
+    if alignment is None:
+        alignment = _alignment(series, stated, case)
     check_length(model.mesh, case)
     check_radius(model.mesh, case)
     account = series.account()
