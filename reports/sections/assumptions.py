@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from cases.results.metric_row import MetricRow
-from cases.statistics import PLACED
+from cases.statistics import BUDGET, PLACED
 from reports.blocks import Column, Table, numbers, prose
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
@@ -21,7 +21,8 @@ def further_figures(comparison: Comparison, placed: frozenset[str]) -> Table | N
         _further(row)
         for row in comparison.metrics.rows
         if not row.status
-        and row.statistic not in PLACED
+        and not row.inflow
+        and row.statistic not in (*PLACED, *BUDGET)
         and row.statistic not in (*_BY_CELL_AND_STATE, *_WITH_TABLES)
         and (row.statistic != "largest" or row.quantity not in placed)
         and (row.i is None or row.statistic == "largest")

@@ -30,6 +30,8 @@ def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
             f"{name}: pressure and flow rate of the reduced model change by at most "
             f"{run.rom.cycle_change:.1e} (relative) from the start to the end of the last cycle"
         )
+    for run in runs.values():
+        notes += [] if run.sources is None else run.sources.notes
     stated = ", ".join(f"{value:g}" for value in sorted({run.case.blood.viscosity for run in runs.values()}))
     notes.append(
         f"viscosity of the reduced model: {stated} Pa s; the plot file does not state the reference's"

@@ -78,3 +78,12 @@ def phase_lag(rom: xr.Dataset, reference: xr.Dataset, period: float) -> float | 
     bound = LARGEST_LAG * period
     best = minimize_scalar(misfit, bounds=(-bound, bound), method="bounded", options={"xatol": 1e-7 * period})
     return float(best.x)
+
+
+def values_of(quantity: str, model: xr.Dataset) -> Floats:
+    """Values of a compared quantity in one model, float64, on its dimensions; (1,) for one of the cycle."""
+    if quantity in CYCLE_QUANTITIES:
+        return np.array([CYCLE_QUANTITIES[quantity](model)])
+    if quantity in DERIVED_QUANTITIES:
+        return DERIVED_QUANTITIES[quantity](model)
+    return np.asarray(model[quantity].to_numpy(), dtype=float)

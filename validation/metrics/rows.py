@@ -14,7 +14,7 @@ from cases.quantities import of_cycle, pooled, reads, statistics_of, tabulated
 from cases.results.comparison_file import MODELS, variable
 from cases.results.metric_row import COLUMNS, MetricRow, metric_row
 from cases.statistics import statistic_of
-from validation.metrics.quantities import CYCLE_QUANTITIES, DERIVED_QUANTITIES, phase_lag
+from validation.metrics.quantities import CYCLE_QUANTITIES, phase_lag, values_of
 from validation.metrics.statistics import EXTREMES, relative_error, statistic_value
 
 DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")
@@ -42,11 +42,7 @@ class Models:
 
     def pair(self, quantity: str) -> tuple[Floats, Floats]:
         """Values of a quantity in both models, float64."""
-        if quantity in DERIVED_QUANTITIES:
-            derive = DERIVED_QUANTITIES[quantity]
-            return derive(self.rom), derive(self.reference)
-        rom, reference = self.rom[quantity], self.reference[quantity]
-        return rom.to_numpy().astype(float), reference.to_numpy().astype(float)
+        return values_of(quantity, self.rom), values_of(quantity, self.reference)
 
     def statistic(self, name: str, rom: Floats, reference: Floats) -> float | None:
         """Value of a statistic over all entries that the reference states; None where it has no meaning."""
@@ -252,7 +248,10 @@ def change_rows(rows: list[MetricRow], baselines: Mapping[str, str]) -> Iterator
     kept = [
         row
         for row in rows
-        if row.statistic in ("value", "cycle") and row.rom is not None and row.quantity not in DOMINANCE
+        if row.statistic in ("value", "cycle")
+        and not row.inflow
+        and row.rom is not None
+        and row.quantity not in DOMINANCE
     ]
     known = {(r.variant, r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in kept}
     for row in kept:

@@ -4,7 +4,7 @@ import hashlib
 import json
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,14 +15,25 @@ from cases.sections.case import Case
 from validation.errors import ValidationError
 from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
+from validation.reference.direction import inflow_sign
 from validation.reference.kind import Progress, Reference, ReferenceKind
 from validation.runs.cache import Cache, Entry
 from validation.runs.provenance import checksum, shown_path
 from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
 from validation.runs.sources import Kind, code_digest
 
-T = TypeVar("T", ReducedModelRun, Reference)
 Remark = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Some numbers that took long to find, as JSON holds them, and what to say of finding them."""
+
+    values: dict[str, Any]
+    description: dict[str, Any] = field(default_factory=dict)
+
+
+T = TypeVar("T", ReducedModelRun, Reference, Numbers)
 
 
 def canonical(value: Any) -> Any:
@@ -44,7 +55,7 @@ def canonical(value: Any) -> Any:
     if isinstance(value, BaseModel):
         return {name: canonical(getattr(value, name)) for name in type(value).model_fields}
     if is_dataclass(value):
-        return {field.name: canonical(getattr(value, field.name)) for field in fields(value)}
+        return {part.name: canonical(getattr(value, part.name)) for part in fields(value)}
     if isinstance(value, Mapping):
         return {str(name): canonical(each) for name, each in value.items()}
     if isinstance(value, list | tuple):
@@ -75,7 +86,7 @@ def reference_key(case: Case, alignment: Alignment, rays: Rays) -> str:
         "files": [shown_path(path) for path in case.input_files],
         "geometry": case.geometry,
         "calcification": case.calcification,
-        "inlet": case.inlet,
+        "inlet": {"period": case.inlet.period, "sign": inflow_sign(case, alignment)},
         "cells": case.compare.cells,
         "alignment": alignment,
         "rays": rays,
@@ -156,6 +167,20 @@ def cached_rom(
         computed,
         packed,
         unpacked,
+        remark,
+    )
+
+
+def cached_numbers(
+    store: Cache | None, key: Callable[[], str], compute: Callable[[], Numbers], remark: Remark
+) -> Numbers:
+    """Compute some numbers, or take them from the cache."""
+    return _cached(
+        store,
+        key,
+        compute,
+        lambda found: Entry({}, {"values": found.values, "description": found.description}),
+        lambda entry: Numbers(entry.facts["values"], entry.facts["description"]),
         remark,
     )
 

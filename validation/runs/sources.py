@@ -5,7 +5,7 @@ from typing import Literal
 
 from solver.kernel_cache import ROOT, sources_digest
 
-Kind = Literal["reduced model", "reference", "sweep", "tables"]
+Kind = Literal["reduced model", "reference", "budget", "sweep", "tables"]
 
 LIBRARIES = ("numba", "numpy", "scipy", "xarray")
 
@@ -34,6 +34,7 @@ CELLS = (
     "validation/errors.py",
     "validation/mapping",
     "validation/reference/alignment.py",
+    "validation/reference/direction.py",
     "validation/reference/kind.py",
     "validation/runs/cache.py",
     "validation/runs/cached.py",
@@ -61,6 +62,19 @@ REFERENCE = (
 DETERMINANTS: dict[Kind, tuple[str, ...]] = {
     "reduced model": REDUCED_MODEL,
     "reference": REFERENCE,
+    "budget": (
+        *REDUCED_MODEL,
+        *REFERENCE,
+        "cases/quantities.py",
+        "cases/statistics.py",
+        "validation/compare/budget",
+        "validation/converge",
+        "validation/metrics/quantities.py",
+        "validation/metrics/statistics.py",
+        "validation/runs/instants.py",
+        "validation/runs/matched_inflow.py",
+        "validation/runs/sources.py",
+    ),
     "sweep": (
         *REDUCED_MODEL,
         *REFERENCE,
@@ -87,6 +101,6 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
 @cache
 def code_digest(kind: Kind) -> str:
     """Digest of the code that determines one kind of result, and of the libraries' versions."""
-    libraries = (*LIBRARIES, "pyvista", "vtk") if kind in ("reference", "sweep") else LIBRARIES
+    libraries = (*LIBRARIES, "pyvista", "vtk") if kind in ("reference", "budget", "sweep") else LIBRARIES
     sources = dict.fromkeys(DETERMINANTS[kind])
     return sources_digest((ROOT / source for source in sources), libraries)

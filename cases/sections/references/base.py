@@ -104,6 +104,11 @@ class ReferenceSection(Section):
         return ()
 
     @property
+    def coarser(self) -> tuple["ReferenceSection", ...]:
+        """What is stated of the same simulation on coarser meshes, from the coarsest on."""
+        return ()
+
+    @property
     def source(self) -> tuple[str, ...]:
         """What two references share that come from the same model."""
         return (self.kind,)

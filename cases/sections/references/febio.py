@@ -10,6 +10,7 @@ from cases.sections.base import Section
 from cases.sections.references.base import MeshReference
 from cases.values.kinds import (
     Context,
+    ExistingFile,
     RunFile,
     Switch,
     TimeStep,
@@ -109,6 +110,9 @@ class FebioReference(MeshReference):
         Names of the domains; found from the materials if None.
     calcified : tuple of str or None
         Names of those domains of the wall that are calcified; their extent is compared with the case's.
+    levels : tuple of pathlib.Path
+        Absolute paths of plot files of the same run on coarser meshes, from the coarsest on: what the mesh of
+        `plot_file` owes to its size is found from them.
     log : pathlib.Path or None
         Absolute path of the run's log, which tells what the run cost and how it ended.
     data_records : tuple of RecordFile
@@ -121,6 +125,7 @@ class FebioReference(MeshReference):
     lumen: tuple[Words, ...] | None = None
     wall: tuple[Words, ...] | None = None
     calcified: tuple[Words, ...] | None = None
+    levels: tuple[ExistingFile, ...] = ()
     log: RunFile | None = None
     data_records: tuple[RecordFile, ...] = ()
 
@@ -128,7 +133,18 @@ class FebioReference(MeshReference):
     def files(self) -> tuple[Path, ...]:
         """Absolute paths of the run's files."""
         log = () if self.log is None else (self.log,)
-        return (self.plot_file, *log, *(record.file for record in self.data_records))
+        return (self.plot_file, *self.levels, *log, *(record.file for record in self.data_records))
+
+    @property
+    def coarser(self) -> tuple["FebioReference", ...]:
+        """The same reference on each coarser mesh, without the log and the records of its own run."""
+        apart = {"generate": None, "levels": (), "log": None, "data_records": ()}
+        return tuple(self.model_copy(update={**apart, "plot_file": level}) for level in self.levels)
+
+    @field_validator("levels")
+    @classmethod
+    def _levels(cls, paths: tuple[Path, ...]) -> tuple[Path, ...]:
+        return distinct(paths)
 
     @field_validator("plot_file", "log", mode="before")
     @classmethod

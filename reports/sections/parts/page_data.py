@@ -124,12 +124,17 @@ def metric_columns(metrics: Metrics) -> dict[str, Any]:
     return {
         "variant": _coded([row.variant for row in metrics.rows]),
         "quantity": _coded([quantity_words(row.quantity) for row in metrics.rows]),
-        "statistic": _coded([statistic_words(row.statistic) for row in metrics.rows]),
+        "statistic": _coded([_statistic(row) for row in metrics.rows]),
         "status": _coded([row.status for row in metrics.rows]),
         "unit": _coded([_display(row)[0] for row in metrics.rows]),
         "relative": [statistic_of(row.statistic).relative for row in metrics.rows],
         **{name: [_number(row, name) for row in metrics.rows] for name in _NUMBERS},
     }
+
+
+def _statistic(row: MetricRow) -> str:
+    words = statistic_words(row.statistic)
+    return f"{words}, with the inflow of 3D" if row.inflow else words
 
 
 def _display(row: MetricRow) -> tuple[str, float]:

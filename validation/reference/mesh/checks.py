@@ -6,13 +6,13 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.sections.case import Case
-from solver.case.model import inlet_signal
 from validation.errors import UnusableReferenceError
 from validation.mapping.elements import HEXAHEDRON, NODES, PYRAMID, TETRAHEDRON, WEDGE
 from validation.mapping.interpolation import Topology
 from validation.mapping.mesh import LumenMesh
 from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
+from validation.reference.direction import inflow_sign
 from validation.reference.mesh.model import MeshModel
 
 _VTK_TYPE = {HEXAHEDRON: 12, WEDGE: 13, TETRAHEDRON: 10, PYRAMID: 14}
@@ -80,11 +80,8 @@ def check_direction(inflow: Floats, alignment: Alignment, case: Case) -> None:
     alignment : Alignment
     case : Case
     """
-    if case.inlet.kind == "pressure":
-        return
-    prescribed = float(np.mean(inlet_signal(case)(alignment.cycle_times)))
     mean = float(np.mean(inflow))
-    if prescribed * mean < 0:
+    if inflow_sign(case, alignment) * mean < 0:
         raise UnusableReferenceError(
             f"blood flows against the inflow of the case ({mean:.3g} m³/s on average at "
             "reference.origin): reference.axis and origin must follow the flow"

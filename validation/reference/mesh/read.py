@@ -129,6 +129,7 @@ def _facts(series: MeshSeries, alignment: Alignment, model: MeshModel) -> dict[s
         "coverage": round(alignment.coverage, 6),
         "first_time_s": float(series.times[alignment.states[0]]),
         "last_time_s": float(series.times[alignment.states[-1]]),
+        "lumen_elements": len(model.mesh.lumen.kinds),
         **({"calcified": place} if place else {}),
     }
 
