@@ -6,7 +6,7 @@ from cases.results.metric_row import MetricRow, Status
 from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings, numbers, prose
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
-from reports.sections.parts import page_data, pooled, trust
+from reports.sections.parts import error_budget, page_data, pooled, trust
 from reports.wording.numbers import ABSENT, counted, listed, rounded
 from reports.wording.words import limit, measure, place, quantity_words, statistic_words
 
@@ -68,15 +68,25 @@ def by_variant(comparison: Comparison) -> tuple[str, ...]:
             said.append(f"{name}: no band was declared, so nothing is judged.")
             continue
         if failed:
-            text = "the 2D model is not within what was declared: " + "; ".join(map(_against_limit, failed))
+            text = "the 2D model is not within what was declared: " + "; ".join(
+                _with_budget(comparison, row) for row in failed
+            )
         elif judged:
             nearest = max(judged, key=lambda row: row.ratio)
-            text = f"the 2D model is within every judged limit; nearest is {_against_limit(nearest)}"
+            text = (
+                f"the 2D model is within every judged limit; nearest is {_with_budget(comparison, nearest)}"
+            )
         else:
             text = "nothing can be said"
         unjudged = f"; {counted(missing, 'band')} could not be judged" if missing else ""
         said.append(f"{name}: {text}{unjudged}.")
     return tuple(said)
+
+
+def _with_budget(comparison: Comparison, row: MetricRow) -> str:
+    """Write an error against its limit, and behind it whose error it is."""
+    owed = error_budget.of_band(comparison, row)
+    return _against_limit(row) + (f" ({owed})" if owed else "")
 
 
 def _against_limit(row: MetricRow) -> str:
@@ -98,10 +108,17 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
         said.append(
             "The reference states values at some cells and instants only; elsewhere, nothing is compared."
         )
-    said.append(
-        "Each 3D reference is one run on one mesh: how far its values are from those of a finer mesh is not "
-        "measured here, so a difference smaller than that error says nothing about the 2D model."
-    )
+    single = [
+        name
+        for name in comparison.variants
+        if all(found["mesh"] is None for found in error_budget.budgets(comparison, name))
+    ]
+    if single:
+        said.append(
+            f"The 3D reference of {listed(single)} is one run on one mesh: how far its values are from those "
+            "of a finer mesh is not measured here, so a difference smaller than that error says nothing about "
+            "the 2D model."
+        )
     variants = comparison.provenance.variants
     uncovered = [name for name in comparison.variants if variants[name].reference.coverage is None]
     if uncovered:
@@ -110,10 +127,10 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
     unrated = [name for name in comparison.variants if variants[name].rom.cycle_change is None]
     if unrated:
         said.append(f"Whether the 2D model of {listed(unrated)} had become periodic was not recorded.")
-    single = [name for name in comparison.variants if variants[name].rom.cycles == 1]
-    if single:
+    once = [name for name in comparison.variants if variants[name].rom.cycles == 1]
+    if once:
         said.append(
-            f"The 2D model ran a single cycle for {listed(single)}: whether it had become periodic is not "
+            f"The 2D model ran a single cycle for {listed(once)}: whether it had become periodic is not "
             "known."
         )
     return tuple(said)
