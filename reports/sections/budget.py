@@ -121,8 +121,8 @@ def section(comparison: Comparison) -> Blocks:
     blocks: list[Block] = [
         Paragraph(
             "A difference between 2D and 3D mixes the model's error with what other inflow, meshes, steps "
-            "and inputs do. Here they are told apart: where the error is no larger than what is uncertain, no "
-            "error of the model can be told."
+            "and inputs do. Here they are told apart: where the error is no larger than what is uncertain, "
+            "no error of the model can be told."
         )
     ]
     unknown = _unknown(comparison)

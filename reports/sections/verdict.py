@@ -116,8 +116,8 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
     if single:
         said.append(
             f"The 3D reference of {listed(single)} is one run on one mesh: how far its values are from those "
-            "of a finer mesh is not measured here, so a difference smaller than that error says nothing about "
-            "the 2D model."
+            "of a finer mesh is not measured here, so a difference smaller than that error says nothing "
+            "about the 2D model."
         )
     variants = comparison.provenance.variants
     uncovered = [name for name in comparison.variants if variants[name].reference.coverage is None]

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from cases.results.metric_row import MetricRow
-from cases.statistics import BUDGET_PARTS
+from cases.statistics import BUDGET_PARTS, statistic_of
 from reports.result.load import Comparison
 from reports.wording.numbers import share
 
@@ -54,10 +54,7 @@ def sentence(found: Budget) -> str:
         )
     else:
         text = f"model error between {share(found['model_low'])} and {share(found['model_high'])}"
-    unknown = (
-        "" if found["mesh"] is not None else ", as far as the error of the 3D mesh, which is unknown, allows"
-    )
-    return text + unknown
+    return text if found["mesh"] is not None else f"{text}; the error of the 3D mesh is not known"
 
 
 def of_band(comparison: Comparison, row: MetricRow) -> str:
@@ -65,7 +62,7 @@ def of_band(comparison: Comparison, row: MetricRow) -> str:
     found = budget(comparison, row.variant, row.quantity)
     if found is None:
         return ""
-    half = 0.5 * row.band if row.band is not None and row.unit == "1" else None
+    half = 0.5 * row.band if row.band is not None and statistic_of(row.statistic).relative else None
     large = [
         f"{words} alone ({share(found[part])}) takes more than half of the limit"
         for part, words in (("inflow", "the inflow of the 3D mesh"), ("mesh", "the 3D mesh"))
