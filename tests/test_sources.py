@@ -17,6 +17,7 @@ PACKAGES = ("cases", "solver", "febio_io", "validation", "reports")
 ENTRIES = {
     "reduced model": ["validation.runs.reduced_model"],
     "reference": ["validation.reference.kinds"],
+    "budget": ["validation.compare.budget.sources"],
     "sweep": ["validation.sweep.chunk", "validation.sweep.design", "validation.sweep.samples"],
     "tables": [
         f"validation.tables.{name}"

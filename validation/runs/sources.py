@@ -65,8 +65,6 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
     "budget": (
         *REDUCED_MODEL,
         *REFERENCE,
-        "cases/quantities.py",
-        "cases/statistics.py",
         "validation/compare/budget",
         "validation/converge",
         "validation/metrics/quantities.py",
