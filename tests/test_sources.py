@@ -18,6 +18,7 @@ ENTRIES = {
     "reduced model": ["validation.runs.reduced_model"],
     "reference": ["validation.reference.kinds"],
     "sweep": ["validation.sweep.chunk", "validation.sweep.design", "validation.sweep.samples"],
+    "input uncertainty": ["validation.compare.budget.inputs"],
     "tables": [
         f"validation.tables.{name}"
         for name in (
@@ -155,7 +156,7 @@ def digests(root):
     return {what: sources_digest(root / source for source in sources) for what, sources in kinds.items()}
 
 
-ALL_RESULTS = {"reduced model", "reference", "sweep"}
+ALL_RESULTS = {"reduced model", "reference", "sweep", "input uncertainty"}
 
 
 @pytest.mark.parametrize(

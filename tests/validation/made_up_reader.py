@@ -33,7 +33,9 @@ class TubeSeries:
 
     @property
     def times(self):
-        return PERIOD * np.arange((self.stated.states - 1) * self.stated.cycles + 1) / (self.stated.states - 1)
+        return (
+            PERIOD * np.arange((self.stated.states - 1) * self.stated.cycles + 1) / (self.stated.states - 1)
+        )
 
     def _points(self, points):
         place = frame(self.stated.axis, self.stated.phi_zero, self.stated.origin)

@@ -36,7 +36,9 @@ def test_each_quantity_is_watched(share):
 def test_the_volume_is_watched():
     """A wider tube with the velocity that keeps its flow rate nearly."""
     wide, own = (
-        Mapper(tube.mesh, CELLS).map_state(tube.coordinates + tube.displacement, *STEADY[1:]).sector_area.sum()
+        Mapper(tube.mesh, CELLS)
+        .map_state(tube.coordinates + tube.displacement, *STEADY[1:])
+        .sector_area.sum()
         for tube in (WIDER, SHORT)
     )
     still = STEADY._replace(velocity=0 * SHORT.velocity)

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from pydantic import BaseModel
@@ -21,7 +21,15 @@ from validation.runs.provenance import checksum, shown_path
 from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
 from validation.runs.sources import Kind, code_digest
 
-T = TypeVar("T", ReducedModelRun, Reference)
+
+class _Described(Protocol):
+    """A result that says of itself what it is."""
+
+    @property
+    def description(self) -> dict[str, Any]: ...
+
+
+T = TypeVar("T", bound=_Described)
 Remark = Callable[[str], None]
 
 
@@ -59,11 +67,11 @@ def key_of(kind: Kind, parts: Mapping[str, Any]) -> str:
 
 
 def rom_key(case: Case, alignment: Alignment, rays: Rays) -> str:
-    """Key of a run of the reduced model: everything but titles, reference, cells, instants and bands."""
+    """Key of a run of the reduced model: everything but titles, reference, uncertainty, cells, instants and bands."""
     model = {
         name: getattr(case, name)
         for name in type(case).model_fields
-        if name not in {"title", "reference", "compare"}
+        if name not in {"title", "reference", "compare", "uncertainty"}
     }
     return key_of("reduced model", {"case": model, "alignment": alignment, "rays": rays})
 
@@ -118,7 +126,7 @@ def cached_reference(
         }
         return Entry(datasets, facts)
 
-    return _cached(
+    return cached(
         store,
         lambda: reference_key(case, alignment, rays),
         lambda: kind.read(case, rays, progress, alignment),
@@ -150,7 +158,7 @@ def cached_rom(
         datasets = {"fields": found.fields, "wall": found.stiffness.to_dataset(name="wall_stiffness")}
         return Entry(datasets, {"cycle_change": found.cycle_change, "description": found.description})
 
-    return _cached(
+    return cached(
         store,
         lambda: rom_key(case, alignment, rays),
         computed,
@@ -160,7 +168,7 @@ def cached_rom(
     )
 
 
-def _cached(
+def cached(
     store: Cache | None,
     key: Callable[[], str],
     compute: Callable[[], T],
