@@ -25,7 +25,8 @@ class UncertainNumber:
     key : NumericKey
         Which one; its value is the mean of a normal distribution.
     numbers : dict of str to float
-        ``mean`` and ``standard_deviation`` of a normal distribution, or ``low`` and ``high`` of a uniform one.
+        ``mean`` and ``standard_deviation`` of a normal distribution, or ``low`` and ``high`` of a uniform
+        one.
     """
 
     key: NumericKey

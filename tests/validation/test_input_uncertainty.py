@@ -99,7 +99,7 @@ def test_what_a_variant_lacks_is_left_out_and_said(tmp_path):
 
 
 def test_failed_samples_are_said(tmp_path):
-    """Of an offset about 0.2 MPa with a deviation of 0.3 MPa many are no pressures that a case may have."""
+    """Viscosities below those that a case may have are samples that fail."""
     inputs = {"blood.viscosity": {"standard_deviation": "0.0014 Pa s"}}
     path = steady_case(tmp_path, inputs, samples=200)
     relative, said = found(path, ("pressure",))
@@ -171,7 +171,7 @@ def test_nothing_uncertain_gives_nothing(tmp_path):
         (
             {"wall.reference_pressure": {"relative": "2 %"}},
             {},
-            "a share of 0; allowed: standard_deviation or",
+            "a share of 0; allowed: standard_deviation",
         ),
         ({}, {}, "uncertainty.inputs: a section; allowed: keys of the case, each with one of standard_devi"),
         ({"blood.viscosity": {"relative": "2 %"}}, {"method": "sobol"}, "method: sobol; allowed: latin_hyp"),

@@ -35,12 +35,9 @@ def test_each_quantity_is_watched(share):
 
 def test_the_volume_is_watched():
     """A wider tube with the velocity that keeps its flow rate nearly."""
-    wide, own = (
-        Mapper(tube.mesh, CELLS)
-        .map_state(tube.coordinates + tube.displacement, *STEADY[1:])
-        .sector_area.sum()
-        for tube in (WIDER, SHORT)
-    )
+    moved = [tube.coordinates + tube.displacement for tube in (WIDER, SHORT)]
+    mapped = [Mapper(SHORT.mesh, CELLS).map_state(points, *STEADY[1:]) for points in moved]
+    wide, own = (state.sector_area.sum() for state in mapped)
     still = STEADY._replace(velocity=0 * SHORT.velocity)
     states = [still._replace(positions=WIDER.coordinates + WIDER.displacement), *[still] * 4]
     mapper, times = Mapper(SHORT.mesh, CELLS), np.linspace(0.0, 0.8, 5)

@@ -67,7 +67,7 @@ def key_of(kind: Kind, parts: Mapping[str, Any]) -> str:
 
 
 def rom_key(case: Case, alignment: Alignment, rays: Rays) -> str:
-    """Key of a run of the reduced model: everything but titles, reference, uncertainty, cells, instants and bands."""
+    """Key of a run of the reduced model: all but titles, reference, uncertainty, cells, instants, bands."""
     model = {
         name: getattr(case, name)
         for name in type(case).model_fields

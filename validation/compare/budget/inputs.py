@@ -49,7 +49,7 @@ def input_uncertainty(
     store: Cache | None = None,
     remark: Remark = lambda _said: None,
 ) -> Mapping[str, float]:
-    """Relative standard uncertainty of the reduced model's results by the inputs', u_input of ASME V&V 20-2009.
+    """Relative standard uncertainty of 2D results by that of the inputs: u_input of ASME V&V 20-2009.
 
     Parameters
     ----------
@@ -68,8 +68,8 @@ def input_uncertainty(
     Returns
     -------
     mapping of str to float
-        Of a field the root mean square over all cells and instants of the standard deviation over the mean, of
-        a number of the cycle its standard deviation over its mean; nothing of a quantity without a number.
+        Of a field the root mean square over all cells and instants of the standard deviation over the mean,
+        of a number of the cycle its standard deviation over its mean; nothing where there is no number.
     """
     if case.uncertainty is None:
         return {}

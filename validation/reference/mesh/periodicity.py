@@ -106,7 +106,8 @@ def periodicity_doubts(change: CycleChange | None) -> tuple[str, ...]:
     if change is None or change.amount <= PERIODIC:
         return ()
     earlier, later = change.times
-    return (
+    said = (
         f"3D is not periodic yet: its {change.quantity} at {later:.6g} s is {change.amount:.1%} of the "
-        f"cycle's largest off that a cycle earlier, at {earlier:.6g} s",
+        f"cycle's largest off that a cycle earlier, at {earlier:.6g} s"
     )
+    return (said,)
