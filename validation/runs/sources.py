@@ -75,11 +75,15 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
     "input uncertainty": (
         *REDUCED_MODEL,
         "cases/reading",
+        "cases/results",
         "solver/runs/batch.py",
         "validation/compare/budget/inputs.py",
         "validation/compare/budget/spread.py",
         "validation/metrics/quantities.py",
+        "validation/runs/provenance.py",
+        "validation/runs/sources.py",
         "validation/sweep/design.py",
+        "validation/sweep/display.py",
         "validation/sweep/parameters.py",
     ),
     "tables": (
