@@ -100,7 +100,7 @@ def test_what_a_variant_lacks_is_left_out_and_said(tmp_path):
 
 def test_failed_samples_are_said(tmp_path):
     """Viscosities below those that a case may have are samples that fail."""
-    inputs = {"blood.viscosity": {"standard_deviation": "0.0014 Pa s"}}
+    inputs = {"blood.viscosity": {"standard_deviation": "0.001405 Pa s"}}
     path = steady_case(tmp_path, inputs, samples=160)
     relative, said = found(path, ("pressure",))
     assert said == ["none: uncertainty: 1 of 160 samples failed"]
