@@ -11,6 +11,7 @@ from pydantic import ValidationError
 from cases.errors import CaseFileError, Problem
 from cases.reading.file_kinds import require_kind
 from cases.reading.problems import problems_of
+from cases.reading.uncertain_numbers import uncertainty_problems
 from cases.reading.variants import merge_variant
 from cases.reading.yaml_nodes import Node, parse_yaml, read_text
 from cases.sections.base import Section
@@ -87,6 +88,8 @@ def load_case_file(path: str | Path) -> CaseFile:
     overrides = overrides_of(root, problems)
     cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides)), problems)
     problems += _tables_apart(cases, overrides)
+    merged = {name: merge_variant(part_of(root, CASE_KEYS), overrides[name]) for name in cases}
+    problems += uncertainty_problems(cases, merged)
     if problems or heading is None:
         raise CaseFileError.of_problems(path, problems)
     return CaseFile(path, text, heading.name, heading.title or heading.name, cases)

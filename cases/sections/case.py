@@ -21,6 +21,7 @@ from cases.sections.solver import (
     Solver,
     Start,
 )
+from cases.sections.uncertainty import Uncertainty
 from cases.sections.wall import Wall, row_wall
 from cases.sections.wall_laws import LAWS
 from cases.values.kinds import ArteryLength, Density, Radius, Thickness, Viscosity, Words, refused
@@ -73,6 +74,8 @@ class Case(Section):
         The 3D results to compare with, of a kind of :data:`cases.sections.references.kinds.KINDS`.
     compare : Compare
         Cells (on the solver's grid), times (of the inlet's cycle) and bands of the comparison.
+    uncertainty : Uncertainty or None
+        How uncertain its inputs are.
     """
 
     title: Words
@@ -85,6 +88,7 @@ class Case(Section):
     solver: Annotated[Solver, told_apart_by("scheme")]
     reference: Annotated[Reference, told_apart_by("kind")] | None = None
     compare: Compare = Field(default=Compare(), validate_default=True)
+    uncertainty: Uncertainty | None = None
 
     @field_validator("wall")
     @classmethod

@@ -7,7 +7,7 @@ from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts import error_budget, page_data, pooled, trust
-from reports.wording.numbers import ABSENT, counted, listed, rounded
+from reports.wording.numbers import ABSENT, counted, listed, rounded, share
 from reports.wording.words import limit, measure, place, quantity_words, statistic_words
 
 _ORDER = {"FAIL": 0, "MISSING": 1, "OK": 2}
@@ -23,15 +23,24 @@ def headline(comparison: Comparison) -> str:
     bands = comparison.metrics.bands()
     if not bands:
         return "The case declares no band, so nothing is judged: the figures below are measured, not graded."
-    counts = [(name, Counter(r.status for r in bands if r.variant == name)) for name in comparison.variants]
+    judged = [row for row in bands if not trust.not_periodic(comparison, row.variant)]
+    counts = [(name, Counter(r.status for r in judged if r.variant == name)) for name in comparison.variants]
     parts = [f"{name}: {_tally(count)}" for name, count in counts if count]
-    total = Counter(r.status for r in bands)
+    parts += [f"{name}: 3D is not periodic" for name in _unsettled(comparison)]
+    if not judged:
+        return f"Nothing is judged ({'; '.join(parts)})."
+    total = Counter(r.status for r in judged)
     opening = (
-        f"All {len(bands)} bands hold"
-        if total["OK"] == len(bands) > 1
-        else f"{total['OK']} of {counted(len(bands), 'band')} {'holds' if total['OK'] == 1 else 'hold'}"
+        f"All {len(judged)} bands hold"
+        if total["OK"] == len(judged) > 1
+        else f"{total['OK']} of {counted(len(judged), 'band')} {'holds' if total['OK'] == 1 else 'hold'}"
     )
     return f"{opening} ({'; '.join(parts)})."
+
+
+def _unsettled(comparison: Comparison) -> list[str]:
+    """Variants whose 3D changes too much over a cycle for a verdict on the 2D model."""
+    return [name for name in comparison.variants if trust.not_periodic(comparison, name)]
 
 
 def _tally(count: Counter[Status]) -> str:
@@ -43,7 +52,12 @@ def _tally(count: Counter[Status]) -> str:
 
 def worst(comparison: Comparison) -> str:
     """Name the band furthest beyond its limit, or nearest to it, with its numbers."""
-    judged = [r for r in comparison.metrics.bands() if r.error is not None and r.band is not None]
+    unsettled = _unsettled(comparison)
+    judged = [
+        row
+        for row in comparison.metrics.bands()
+        if row.error is not None and row.band is not None and row.variant not in unsettled
+    ]
     if not judged:
         return ""
     row = max(judged, key=lambda r: r.ratio)
@@ -60,6 +74,13 @@ def by_variant(comparison: Comparison) -> tuple[str, ...]:
     """Say for each variant whether its bands hold, and by how much the furthest is missed or held."""
     said = []
     for name in comparison.variants:
+        if trust.not_periodic(comparison, name):
+            change = share(trust.cycle_change(comparison, name))
+            said.append(
+                f"{name}: 3D is not periodic (it changes by {change} over a cycle), so that its difference "
+                "from 2D is no model error."
+            )
+            continue
         bands = [row for row in comparison.metrics.bands() if row.variant == name]
         judged = [row for row in bands if row.error is not None]
         failed = [row for row in worst_first(tuple(judged)) if row.status == "FAIL"]
@@ -123,7 +144,12 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
     uncovered = [name for name in comparison.variants if variants[name].reference.coverage is None]
     if uncovered:
         said.append(f"How much of the cycle the 3D states of {listed(uncovered)} cover was not recorded.")
-    said.append("Of 3D one cycle is compared; whether 3D had become periodic by then is not measured here.")
+    unmeasured = [name for name in comparison.variants if variants[name].reference.cycle_change is None]
+    if unmeasured:
+        said.append(
+            "Of 3D one cycle is compared; whether 3D had become periodic by then is not measured in "
+            f"{listed(unmeasured)}: no two of its states are a cycle apart."
+        )
     unrated = [name for name in comparison.variants if variants[name].rom.cycle_change is None]
     if unrated:
         said.append(f"Whether the 2D model of {listed(unrated)} had become periodic was not recorded.")

@@ -73,7 +73,7 @@ def described(
     """Provenance of a finished comparison, with notes and warnings."""
     inputs = [path for case in file.variants.values() for path in case.input_files]
     stated = {
-        "seeds": {"bootstrap": SEED},
+        "seeds": {"bootstrap": SEED} | _seeds_of_inputs(file.variants),
         "wall_times_s": wall_times,
         "notes": [*notes, *notes_of(runs)],
         "warnings": warnings_of(runs),
@@ -84,6 +84,15 @@ def described(
         "bands": declared_bands(file.variants),
     }
     return Provenance.model_validate(provenance(file.path, inputs, command) | stated, strict=False)
+
+
+def _seeds_of_inputs(cases: Mapping[str, Case]) -> dict[str, int]:
+    """Seeds of the samples of uncertain inputs, by variant."""
+    return {
+        f"uncertainty of {name}": case.uncertainty.seed
+        for name, case in cases.items()
+        if case.uncertainty is not None and case.uncertainty.method == "latin_hypercube"
+    }
 
 
 def declared_bands(cases: Mapping[str, Case]) -> list[DeclaredBand]:

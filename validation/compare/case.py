@@ -12,10 +12,13 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
+from cases.reading.template import load_template
 from cases.results.comparison_file import PROFILE_ERROR_CURVE
 from cases.results.metric_row import MetricRow, Status
 from solver.case.model import inlet_signal
 from validation.compare.account import described
+from validation.compare.budget.inputs import input_uncertainty
+from validation.compare.budget.judged import judged_quantities
 from validation.compare.budget.parts import VARIABLE, budget_array, budget_rows, budgets_of
 from validation.compare.budget.sources import Sources
 from validation.compare.comparison import (
@@ -76,12 +79,29 @@ def matched_rows(models: Models, matched: ReducedModelRun) -> list[MetricRow]:
     return [replace(row, inflow="matched") for row in rows]
 
 
-def source_rows(models: Models, sources: Sources | None, both: xr.Dataset) -> list[MetricRow]:
+def uncertain_inputs(file: CaseFile, name: str, run: VariantRun, watch: Watch) -> Mapping[str, float] | None:
+    """By quantity, what uncertain inputs leave open; None where the case says nothing of them."""
+    if run.case.uncertainty is None:
+        return None
+    with watch.step(f"{name}: uncertain inputs"):
+        return input_uncertainty(
+            load_template(file.path, name),
+            run.case,
+            run.reference.alignment.rom_times,
+            judged_quantities(),
+            watch.cache,
+            watch.remarks.append,
+        )
+
+
+def source_rows(
+    models: Models, sources: Sources | None, inputs: Mapping[str, float] | None, both: xr.Dataset
+) -> list[MetricRow]:
     """Rows of what errors owe to what; the budget is added to the dataset of ``both`` models."""
     if sources is None:
         both[VARIABLE] = budget_array({})
         return []
-    budgets = budgets_of(models, sources)
+    budgets = budgets_of(models, sources, inputs)
     both[VARIABLE] = budget_array(budgets)
     matched = [] if sources.matched is None else matched_rows(models, sources.matched)
     return [*matched, *budget_rows(models, budgets)]
@@ -154,10 +174,12 @@ def _compared(
     ):
         for name, run in run_variants(file.variants, alignments, watch, load_reports):
             both = both_models(run, times)
+            inputs = uncertain_inputs(file, name, run, watch)
             with watch.step("metrics"):
                 told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
                 models = models_of(file.name, name, both, about["period_s"], **told)
-                rows[name] = [*variant_rows(models, run, about), *source_rows(models, run.sources, both)]
+                owed = source_rows(models, run.sources, inputs, both)
+                rows[name] = [*variant_rows(models, run, about), *owed]
                 compared[name] = without_rays(models)
                 both[PROFILE_ERROR_CURVE] = error_curves(models, about)
             writing.append(writer.submit(_store, stored, name, both, watch))

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from pydantic import BaseModel
@@ -22,6 +22,15 @@ from validation.runs.provenance import checksum, shown_path
 from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
 from validation.runs.sources import Kind, code_digest
 
+
+class _Described(Protocol):
+    """A result that says of itself what it is."""
+
+    @property
+    def description(self) -> dict[str, Any]: ...
+
+
+T = TypeVar("T", bound=_Described)
 Remark = Callable[[str], None]
 
 
@@ -31,9 +40,6 @@ class Numbers:
 
     values: dict[str, Any]
     description: dict[str, Any] = field(default_factory=dict)
-
-
-T = TypeVar("T", ReducedModelRun, Reference, Numbers)
 
 
 def canonical(value: Any) -> Any:
@@ -70,11 +76,11 @@ def key_of(kind: Kind, parts: Mapping[str, Any]) -> str:
 
 
 def rom_key(case: Case, alignment: Alignment, rays: Rays) -> str:
-    """Key of a run of the reduced model: everything but titles, reference, cells, instants and bands."""
+    """Key of a run of the reduced model: all but titles, reference, uncertainty, cells, instants, bands."""
     model = {
         name: getattr(case, name)
         for name in type(case).model_fields
-        if name not in {"title", "reference", "compare"}
+        if name not in {"title", "reference", "compare", "uncertainty"}
     }
     return key_of("reduced model", {"case": model, "alignment": alignment, "rays": rays})
 
@@ -129,7 +135,7 @@ def cached_reference(
         }
         return Entry(datasets, facts)
 
-    return _cached(
+    return cached(
         store,
         lambda: reference_key(case, alignment, rays),
         lambda: kind.read(case, rays, progress, alignment),
@@ -161,7 +167,7 @@ def cached_rom(
         datasets = {"fields": found.fields, "wall": found.stiffness.to_dataset(name="wall_stiffness")}
         return Entry(datasets, {"cycle_change": found.cycle_change, "description": found.description})
 
-    return _cached(
+    return cached(
         store,
         lambda: rom_key(case, alignment, rays),
         computed,
@@ -175,7 +181,7 @@ def cached_numbers(
     store: Cache | None, key: Callable[[], str], compute: Callable[[], Numbers], remark: Remark
 ) -> Numbers:
     """Compute some numbers, or take them from the cache."""
-    return _cached(
+    return cached(
         store,
         key,
         compute,
@@ -185,7 +191,7 @@ def cached_numbers(
     )
 
 
-def _cached(
+def cached(
     store: Cache | None,
     key: Callable[[], str],
     compute: Callable[[], T],

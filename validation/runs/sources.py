@@ -5,7 +5,7 @@ from typing import Literal
 
 from solver.kernel_cache import ROOT, sources_digest
 
-Kind = Literal["reduced model", "reference", "budget", "sweep", "tables"]
+Kind = Literal["reduced model", "reference", "budget", "sweep", "tables", "input uncertainty"]
 
 LIBRARIES = ("numba", "numpy", "scipy", "xarray")
 
@@ -83,6 +83,20 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
         "validation/metrics",
         "validation/runs/sources.py",
         "validation/sweep",
+    ),
+    "input uncertainty": (
+        *REDUCED_MODEL,
+        "cases/reading",
+        "cases/results",
+        "solver/runs/batch.py",
+        "validation/compare/budget/inputs.py",
+        "validation/compare/budget/spread.py",
+        "validation/metrics/quantities.py",
+        "validation/runs/provenance.py",
+        "validation/runs/sources.py",
+        "validation/sweep/design.py",
+        "validation/sweep/display.py",
+        "validation/sweep/parameters.py",
     ),
     "tables": (
         *SOLVER,
