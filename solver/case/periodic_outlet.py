@@ -63,7 +63,7 @@ def periodic_outlet_flow(case: Case, progress: Progress | None = None) -> Floats
         if cycle == MOST_CYCLES:
             break
         kept = stops[-1].kept | {"reservoir": np.asarray(held[0] + gap)}
-    raise SolverError(f"the reduced model changes by {change:.1e} (relative) over its {MOST_CYCLES}th cycle")
+    raise SolverError(f"the reduced model changes by {change:.1e} (relative) over cycle {MOST_CYCLES}")
 
 
 def _without(case: Case) -> Case:
