@@ -226,7 +226,8 @@ def _windkessel(
         period,
         timing.time_step,
     )
-    share, offset = start_curves(periodic, ramp, timing.n_steps)
+    start = ramp_curve(ramp)
+    share, offset = start_curves(periodic, start, timing.n_steps)
     return Windkessel(
         periodic.proximal_resistance,
         periodic.distal_resistance,
@@ -234,7 +235,7 @@ def _windkessel(
         distal_share=share,
         offset=offset,
         start=float(periodic.pressure_at(np.zeros(1))[0]),
-        cycles_from_rest=cycles_from_rest(periodic, ramp),
+        cycles_from_rest=cycles_from_rest(periodic, start),
     )
 
 

@@ -17,7 +17,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from cases.arrays import Floats
-from febio_io.feb.load_curves import ramp_curve
 from febio_io.feb.model import Curve
 
 SLACK = 1e-3  # of a step, by which a step may miss the ramp's end and still end with it
@@ -76,46 +75,44 @@ class Periodic:
         return np.asarray((np.exp(1j * np.outer(time, turn)) @ spectrum).real / self.flow.size)
 
 
-def start_curves(periodic: Periodic, ramp: float, n_steps: int) -> tuple[Curve, Curve]:
+def start_curves(periodic: Periodic, ramp: Curve, n_steps: int) -> tuple[Curve, Curve]:
     """Give the load curves of `Rd`, as a factor, and of `pressure_offset`, Pa.
 
     Parameters
     ----------
     periodic : Periodic
         The state to start in, where the ramp ends.
-    ramp : float
-        Duration of the ramp, s.
+    ramp : Curve
+        The ramp, from 0 to 1.
     n_steps : int
         FEBio's steps in all.
     """
-    step = periodic.time_step
-    last = math.floor(ramp / step + SLACK)  # step of the ramp; the next is the cycles' first
+    step, end = periodic.time_step, float(ramp.times[-1])
+    last = math.floor(end / step + SLACK)  # step of the ramp; the next is the cycles' first
     times: Floats = step * np.arange(last + 1.0, n_steps + 1.0)
-    first = times[:1] - ramp
+    first = times[:1] - end
     missing = float((periodic.charge_at(first) - periodic.gain * periodic.flow_at(first))[0])
     rate = math.log(periodic.kept) / step
     held = missing * np.exp(rate * (times - times[0]))
-    start = ramp_curve(ramp)
-    top = periodic.venous_pressure + missing * math.exp(rate * (ramp - times[0]))
+    top = periodic.venous_pressure + missing * math.exp(rate * (end - times[0]))
     offset = Curve(
-        np.concatenate([start.times, times]),
-        np.concatenate([top * start.values, periodic.venous_pressure + held]),
+        np.concatenate([ramp.times, times]),
+        np.concatenate([top * ramp.values, periodic.venous_pressure + held]),
     )
     return Curve(step * np.array([last, last + 1.0]), np.array([0.0, 1.0])), offset
 
 
-def cycles_from_rest(periodic: Periodic, ramp: float) -> int:
+def cycles_from_rest(periodic: Periodic, ramp: Curve) -> int:
     """Count the cycles until a start without charge would be periodic to 1 %.
 
     In such a start R_d, R, p_d and the flow grow by the ramp alike; what v then lacks leaks step by step.
     """
-    share = ramp_curve(ramp)
     step, compliance = periodic.time_step, periodic.compliance
     first = periodic.flow_at(np.zeros(1))[0]
     charge = flow = 0.0
     before = 0.0
-    for time in np.arange(step, ramp * (1 + 1e-9), step):
-        grown = float(np.interp(time, share.times, share.values))
+    for time in np.arange(step, ramp.times[-1] * (1 + 1e-9), step):
+        grown = float(np.interp(time, ramp.times, ramp.values))
         distal = grown * periodic.distal_resistance
         kept = distal * compliance / (step + distal * compliance)
         # FEBio takes R q off the pressure before with the R of now.

@@ -5,7 +5,8 @@ from itertools import count
 import numpy as np
 
 from cases.arrays import Floats
-from cases.sections.case import Case, WindkesselOutlet
+from cases.sections.case import Case
+from cases.sections.outlet import WindkesselOutlet
 from solver.case.model import inlet_signal, model_of
 from solver.case.periodicity import PERIODIC, cycle_change
 from solver.case.run import walk

@@ -12,6 +12,7 @@ from ruamel.yaml import YAML
 import solver.case.periodic_outlet as periodic
 from cases.reading.case_file import load_case_file
 from febio_io.feb.command import main
+from febio_io.feb.from_case import ramp_curve
 from febio_io.feb.structure import read_structure
 from febio_io.feb.windkessel_start import Periodic, cycles_from_rest
 from solver.case.model import model_of
@@ -178,7 +179,9 @@ def test_the_cycles_saved_are_those_of_a_replay_from_rest(tau, most):
     found = replay(rcr, share * flow[phase % 200])[round(ramp / step) :: 200]
     periodic_cycle = replay(rcr, share * flow[phase % 200])[-200:]
     late = np.abs(found - found[-1]) > 0.01 * periodic_cycle.max()
-    count = cycles_from_rest(Periodic(PROXIMAL, DISTAL, tau / DISTAL, VENOUS, flow, period, step), ramp)
+    count = cycles_from_rest(
+        Periodic(PROXIMAL, DISTAL, tau / DISTAL, VENOUS, flow, period, step), ramp_curve(ramp)
+    )
     assert count == np.flatnonzero(late)[-1] + 1
     assert 1 <= count <= most
 

@@ -5,7 +5,7 @@ import pytest
 
 import solver.case.periodic_outlet as periodic
 from cases.reading.case_file import load_case_file
-from cases.sections.case import NonReflectingOutlet
+from cases.sections.outlet import NonReflectingOutlet
 from solver.case.model import model_of
 from solver.case.run import walk
 from solver.errors import SolverError
