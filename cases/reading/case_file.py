@@ -58,7 +58,7 @@ CASE_KEYS = tuple(key for key in Case.model_fields if key != "title")
 FILE_KEYS = ("name", "title", *CASE_KEYS, "variants")
 
 
-def load_case_file(path: str | Path) -> CaseFile:
+def load_case_file(path: str | Path, results_exist: bool = True) -> CaseFile:
     """Read and check a case file.
 
     Files that it names are looked for relative to its folder, then to each folder above.
@@ -67,6 +67,8 @@ def load_case_file(path: str | Path) -> CaseFile:
     ----------
     path : str or pathlib.Path
         The case file (YAML).
+    results_exist : bool, optional
+        Whether the files of a 3D run must exist even where the case does not say how they are made.
 
     Returns
     -------
@@ -86,7 +88,7 @@ def load_case_file(path: str | Path) -> CaseFile:
     problems = unknown_keys(root, FILE_KEYS)
     heading = check_section(_Heading, part_of(root, ("name", "title")), None, problems)
     overrides = overrides_of(root, problems)
-    cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides)), problems)
+    cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides), results_exist), problems)
     problems += _tables_apart(cases, overrides)
     merged = {name: merge_variant(part_of(root, CASE_KEYS), overrides[name]) for name in cases}
     problems += uncertainty_problems(cases, merged)

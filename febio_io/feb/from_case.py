@@ -36,6 +36,7 @@ from febio_io.feb.model import (
     Wall,
     Windkessel,
 )
+from febio_io.feb.windkessel_start import Periodic, cycles_from_rest, start_curves
 
 RAMP_POINTS = 51
 SPACING = 2e-3  # s, in a heartbeat: the waveform's curvature is followed to 1e-3 of its height
@@ -79,6 +80,8 @@ STEPS_PER_CYCLE = 200
 RAMP_SHARE = 0.25  # of a cycle, where no reference tells when the cycles start
 SLACK = 1e-3  # of a step, by which the last one may miss the end of the last cycle
 
+OutletFlow = Callable[[Case], Floats]
+
 
 @dataclass(frozen=True)
 class Choices:
@@ -105,7 +108,7 @@ class Choices:
     records: str | None = None
 
 
-def artery_model(case: Case, choices: Choices) -> ArteryModel:
+def artery_model(case: Case, choices: Choices, outlet_flow: OutletFlow) -> ArteryModel:
     """Give the model of a case.
 
     Parameters
@@ -115,6 +118,9 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
         ``time_offset``.
     choices : Choices
         What the case leaves open.
+    outlet_flow : callable
+        From a case with a Windkessel to one cycle of its periodic flow through the outlet at equal intervals,
+        without the cycle's end, m³/s (n,); asked last, and for no other outlet.
 
     Raises
     ------
@@ -126,7 +132,7 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
     ramp = offset if offset > 0 else RAMP_SHARE * period
     if not isinstance(case.inlet, VelocityInlet):
         raise _refused("inlet.kind", case.inlet.kind, "velocity")
-    inlet = case.inlet
+    inlet, timing = case.inlet, _timing(period, ramp, choices)
     inflow = partial(_scaled, _signal(inlet.waveform, inlet.value, inlet.fourier), inlet.scale)
     return ArteryModel(
         vessel=Vessel(geometry.length, geometry.radius, geometry.wall_thickness),
@@ -137,9 +143,9 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
         patch=_patch(case),
         inflow=cycles_after_ramp(inflow, period, choices.cycles, ramp),
         ramp=ramp_curve(ramp),
-        outlet=_outlet(case, choices.cycles, ramp),
-        timing=_timing(period, ramp, choices),
+        timing=timing,
         records=choices.records,
+        outlet=_outlet(case, choices, ramp, timing, outlet_flow),
     )
 
 
@@ -190,7 +196,7 @@ def _patch(case: Case) -> Patch | None:
     return Patch(calcification.youngs_modulus, calcification.x, phi)
 
 
-def _outlet(case: Case, cycles: int, ramp: float) -> Outlet:
+def _outlet(case: Case, choices: Choices, ramp: float, timing: Timing, outlet_flow: OutletFlow) -> Outlet:
     outlet = case.outlet
     match outlet:
         case ResistanceOutlet(flow="section"):
@@ -198,17 +204,39 @@ def _outlet(case: Case, cycles: int, ramp: float) -> Outlet:
         case ResistanceOutlet():
             raise _refused("outlet.flow", outlet.flow, "section: the 3D outlet has one pressure")
         case WindkesselOutlet():
-            return Windkessel(
-                outlet.proximal_resistance,
-                outlet.distal_resistance,
-                outlet.compliance,
-                outlet.venous_pressure,
-            )
+            # The mesh's lumen is a polygon within the circle, and carries as much less.
+            flow = choices.size.section_share * outlet_flow(case)
+            return _windkessel(outlet, flow, case.inlet.period, ramp, timing)
         case PressureOutlet():
             signal = _signal(outlet.waveform, outlet.value, None)
-            return PrescribedPressure(cycles_after_ramp(signal, case.inlet.period, cycles, ramp))
+            return PrescribedPressure(cycles_after_ramp(signal, case.inlet.period, choices.cycles, ramp))
         case NonReflectingOutlet():
             raise _refused("outlet.kind", outlet.kind, "resistance, windkessel, pressure")
+
+
+def _windkessel(
+    outlet: WindkesselOutlet, flow: Floats, period: float, ramp: float, timing: Timing
+) -> Windkessel:
+    periodic = Periodic(
+        outlet.proximal_resistance,
+        outlet.distal_resistance,
+        outlet.compliance,
+        outlet.venous_pressure,
+        flow,
+        period,
+        timing.time_step,
+    )
+    start = ramp_curve(ramp)
+    share, offset = start_curves(periodic, start, timing.n_steps)
+    return Windkessel(
+        periodic.proximal_resistance,
+        periodic.distal_resistance,
+        periodic.compliance,
+        distal_share=share,
+        offset=offset,
+        start=float(periodic.pressure_at(np.zeros(1))[0]),
+        cycles_from_rest=cycles_from_rest(periodic, start),
+    )
 
 
 def _signal(waveform: Waveform | None, value: float | None, fourier: FourierSeries | None) -> Signal:

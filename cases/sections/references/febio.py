@@ -97,6 +97,11 @@ class RecordFile(Section):
         return names if names is None else distinct(names)
 
 
+def _must_exist(info: "ValidationInfo[Context | None]") -> bool:
+    """Whether the files of the run must be there: not where they are made from the case."""
+    return info.data.get("generate") is None and (info.context is None or info.context.results_exist)
+
+
 class FebioReference(MeshReference):
     """A plot file of FEBio.
 
@@ -149,7 +154,7 @@ class FebioReference(MeshReference):
     @field_validator("plot_file", "log", mode="before")
     @classmethod
     def _is_there(cls, stated: object, info: "ValidationInfo[Context | None]") -> object:
-        if stated is not None and info.data.get("generate") is None:
+        if stated is not None and _must_exist(info):
             existing_file(stated, info.context)
         return stated
 
@@ -163,7 +168,7 @@ class FebioReference(MeshReference):
     @field_validator("data_records", mode="before")
     @classmethod
     def _are_there(cls, stated: object, info: "ValidationInfo[Context | None]") -> object:
-        records = stated if isinstance(stated, list) and info.data.get("generate") is None else []
+        records = stated if isinstance(stated, list) and _must_exist(info) else []
         for place, record in enumerate(records):
             if isinstance(record, dict) and "file" in record:
                 try:
