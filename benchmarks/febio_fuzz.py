@@ -2,10 +2,10 @@
 
     python benchmarks/febio_fuzz.py [--runs N] [--seed K] [--engine mutations|coverage]
 
-Every input is one of the tests' samples, damaged: a plot file, the inside of a compressed state, a log or a
-data record. It is read whole. Allowed are success and an error of the package's own family; an input that
-leads to anything else is kept in `--keep` and makes the exit status 1: another exception, more than
-`--seconds` for one input, more than `--memory` megabytes. "mutations" is this script's own driver; "coverage"
+Every input is one of the tests' samples, damaged: a plot file, the inside of a compressed state, a log, a
+data record or a model. It is read whole. Allowed are success and an error of the package's own family; an
+input that leads to anything else is kept in `--keep` and makes the exit status 1: another exception, more
+than `--seconds` for one input, more than `--memory` megabytes. "mutations" is this own driver; "coverage"
 steers by the lines reached and needs atheris (pip install atheris).
 """
 
@@ -40,7 +40,7 @@ def too_slow(_number: int, _frame: FrameType | None) -> None:
 
 def run_mutations(options: argparse.Namespace, folder: Path) -> int:
     inputs = importlib.import_module("febio_fuzz_inputs")
-    kinds = inputs.kinds()
+    kinds = [kind for kind in inputs.kinds() if options.kinds is None or kind.name in options.kinds]
     weights = [kind.weight for kind in kinds]
     random_ = random.Random(options.seed)  # noqa: S311 - nothing secret
     signal.signal(signal.SIGALRM, too_slow)
@@ -106,6 +106,7 @@ def main() -> int:
     parser.add_argument("--runs", type=int, default=100_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--engine", choices=("mutations", "coverage"), default="mutations")
+    parser.add_argument("--kinds", nargs="+", metavar="NAME", help="only these, e.g. model, log")
     parser.add_argument("--seconds", type=int, default=5, help="most for one input")
     parser.add_argument("--memory", type=int, default=2048, help="most megabytes")
     parser.add_argument("--keep", type=Path, default=Path("fuzz_findings"), metavar="DIR")

@@ -9,6 +9,7 @@ from cases.errors import CaseError
 from cases.reading.case_file import CaseFile, load_case_file
 from cases.reading.json_schema import case_file_schema
 from cases.sections.case import Case
+from cases.sections.doubts import doubts_of
 from cases.shell.command import COMPLETE, WRONG_INPUT, concluded
 
 
@@ -44,9 +45,11 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def print_summary(file: CaseFile) -> None:
-    """Print one line for each variant of a file."""
+    """Print one line for each variant of a file, and on stderr what is seldom meant."""
     for name, case in file.variants.items():
         print(f"{file.path}: {name}: {summary(case)}")
+        for doubt in doubts_of(case):
+            print(f"warning: {file.path}: {name}: {doubt}", file=sys.stderr)
 
 
 def summary(case: Case) -> str:

@@ -53,9 +53,30 @@ PLACED = JUDGED | _table(  # what reports have tables for
     Statistic("change", "change by calcification"),
     Statistic("ratio", "ratio to the baseline"),
 )
-STATISTICS = PLACED | _table(
-    Statistic("curved_rms_error", "RMS error against 3D with the section's edge taken round"),
-    Statistic("worst_cell", "RMS error of the worst cell"),
+BUDGET_PARTS = {  # of an error, in words
+    "error": "error as compared",
+    "inflow": "what the inflow of the 3D mesh changes",
+    "matched": "error with the inflow of the 3D mesh",
+    "mesh": "uncertainty of the 3D mesh",
+    "grid": "uncertainty of the 2D grid and time step",
+    "inputs": "uncertainty of the inputs",
+    "uncertainty": "uncertainty of the comparison",
+    "model_low": "least error of the model",
+    "model_high": "largest error of the model",
+    "extrapolated": "error in the limit of fine 3D meshes",
+    "mesh_order": "observed order of the 3D mesh",
+    "mesh_safety": "factor of safety of the 3D mesh",
+    "grid_order": "observed order of the 2D grid",
+    "step_order": "observed order of the 2D time step",
+}
+BUDGET = _table(*(Statistic(f"budget_{name}", words, signed=False) for name, words in BUDGET_PARTS.items()))
+STATISTICS = (
+    PLACED
+    | BUDGET
+    | _table(
+        Statistic("curved_rms_error", "RMS error against 3D with the section's edge taken round"),
+        Statistic("worst_cell", "RMS error of the worst cell"),
+    )
 )
 
 

@@ -2,16 +2,16 @@
 
 import argparse
 import json
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 from cases.shell.command import COMPLETE, concluded
-from febio_io.errors import FebioFileError
+from febio_io.errors import FebioFileError, FebioFormatError, FebioKeyError
 from febio_io.feb.structure import read_structure
-from febio_io.feb.summary import model_lines, summarize_model
-from febio_io.files import open_file
-from febio_io.selection import parse_states
+from febio_io.feb.summary import model_lines, problem_lines, summarize_model
+from febio_io.files import open_file, text_of
 from febio_io.text.data_records import looks_like_record, read_data_record
 from febio_io.text.log import LOOKED_AT, looks_like_log, read_log
 from febio_io.text.summary import log_lines, record_lines, summarize_log, summarize_record
@@ -22,6 +22,8 @@ from febio_io.xplt.summary import summarize, summary_lines
 from febio_io.xplt.tags import MAGIC
 
 FORMATS = ("vtu", "vtkhdf", "csv", "nc")
+# A model, also in two bytes a letter, or behind comments; what else is XML is told what it is.
+MODEL = re.compile(rb"<\0?f\0?e\0?b\0?i\0?o\0?_\0?|^\s*<\?xml")
 MAGICS = (MAGIC.to_bytes(MAGIC_SIZE, "little"), MAGIC.to_bytes(MAGIC_SIZE, "big"))
 
 
@@ -53,10 +55,10 @@ def kind_of(path: Path) -> Literal["plot", "log", "record", "model"]:
             start = file.read(LOOKED_AT)
     except OSError as error:
         raise FebioFileError(f"{path}: cannot be read: {error.strerror}") from error
-    text = start.decode("utf-8", errors="replace")
+    text = text_of(start)
     if start.startswith(MAGICS):
         return "plot"
-    if "<febio_spec" in text:
+    if MODEL.search(start):
         return "model"
     if looks_like_log(text):
         return "log"
@@ -87,6 +89,11 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
         metavar="LIST",
         help="only these states or blocks: numbers from 0, or from the end if negative, and ranges "
         "FIRST:LAST[:STEP] with the last included, e.g. 0,10:20,-1 (as --states=-1 if it starts with a dash)",
+    )
+    parser.add_argument(
+        "--delimiter",
+        metavar="TEXT",
+        help="what separates the numbers of a data record (delim=), where it is none of the usual",
     )
     return parser.parse_args(argv)
 
@@ -125,7 +132,7 @@ def _run_log(options: argparse.Namespace) -> list[str]:
 
 
 def _run_record(options: argparse.Namespace) -> list[str]:
-    record = read_data_record(options.file)
+    record = read_data_record(options.file, delimiter=options.delimiter)
     if options.export is None:
         summary = summarize_record(record)
         return _shown(summary, record_lines(summary), options.json)
@@ -139,8 +146,13 @@ def _run_record(options: argparse.Namespace) -> list[str]:
 def _run_model(options: argparse.Namespace) -> list[str]:
     if options.export is not None:
         raise FebioFileError(f"{options.file}: a model cannot be exported")
-    summary = summarize_model(options.file, read_structure(options.file))
-    return _shown(summary, model_lines(summary), options.json)
+    contents = read_structure(options.file)
+    summary = summarize_model(options.file, contents)
+    lines = _shown(summary, model_lines(summary), options.json)
+    if contents.problems:
+        print("\n".join(lines))
+        raise FebioFormatError("\n".join(problem_lines(contents)), path=options.file)
+    return lines
 
 
 def _shown(summary: dict[str, Any], lines: Iterator[str], as_json: bool) -> list[str]:
@@ -150,3 +162,43 @@ def _shown(summary: dict[str, Any], lines: Iterator[str], as_json: bool) -> list
 def _written(paths: list[Path], as_json: bool) -> list[str]:
     names = [str(path) for path in paths]
     return [json.dumps({"written": names}, indent=2)] if as_json else [f"wrote {name}" for name in names]
+
+
+RANGE = re.compile(r"(-?\d{1,9})(?::(-?\d{1,9})(?::(\d{1,9}))?)?")
+
+
+def parse_states(text: str, count: int) -> list[int]:
+    """Read a list of numbers and ranges.
+
+    Parameters
+    ----------
+    text : str
+        E.g. "0,5,10:20,-1" or "0:-1:10": numbers from 0, or from the end if negative; FIRST:LAST and
+        FIRST:LAST:STEP are ranges that include the last. Each number counts once, in increasing order.
+    count : int
+        How many there are.
+
+    Raises
+    ------
+    FebioKeyError
+        If the text is no such list, or a number is not there.
+    """
+    chosen: set[int] = set()
+    for part in text.split(","):
+        match = RANGE.fullmatch(part.strip())
+        if not match or match[3] == "0":
+            raise FebioKeyError(
+                f"states {part.strip()!r}: a number, FIRST:LAST or FIRST:LAST:STEP is expected"
+            )
+        first = _number(match[1], count)
+        last = _number(match[2], count) if match[2] else first
+        chosen.update(range(first, last + 1, int(match[3] or 1)))
+    return sorted(chosen)
+
+
+def _number(text: str, count: int) -> int:
+    number = int(text)
+    if not -count <= number < count:
+        have = f"0 to {count - 1}" if count else "none"
+        raise FebioKeyError(f"state {number} is not there; there are {have}")
+    return number % count

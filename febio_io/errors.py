@@ -61,20 +61,7 @@ class FebioKeyError(FebioError, LookupError):
 
 
 def nearest_first(wanted: str, names: Iterable[str]) -> list[str]:
-    """Sort names, each once, by their likeness to the wanted one.
-
-    Parameters
-    ----------
-    wanted : str
-        The name that was not found.
-    names : iterable of str
-        The names there are.
-
-    Returns
-    -------
-    list of str
-        The names, the most similar first.
-    """
+    """Sort names, each once, by their likeness to the wanted one."""
     matcher = SequenceMatcher(b=wanted.lower())
 
     def unlikeness(name: str) -> float:

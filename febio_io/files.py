@@ -27,8 +27,14 @@ def open_file(path: Path) -> BinaryIO:
         raise FebioFileError(f"{str(path)!r}: cannot be opened: {error}") from error
 
 
+def text_of(content: bytes) -> str:
+    """Give a file's text; what is not UTF-8, or UTF-16 where the first bytes say so, is replaced."""
+    encoding = "utf-16" if content.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8-sig"
+    return content.decode(encoding, errors="replace")
+
+
 def read_text(path: Path) -> str:
-    """Read a file of text; what is not UTF-8 is replaced.
+    """Read a file of text, as :func:`text_of`.
 
     Raises
     ------
@@ -37,6 +43,6 @@ def read_text(path: Path) -> str:
     """
     try:
         with open_file(path) as file:
-            return file.read().decode("utf-8", errors="replace")
+            return text_of(file.read())
     except OSError as error:
         raise FebioFileError(f"{path}: cannot be read: {error.strerror}") from error

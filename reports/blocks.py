@@ -55,6 +55,16 @@ class Column:
         return self.title in _FILTERED
 
 
+def numbers(*titles: str, group: str = "") -> Iterator[Column]:
+    """Neighbouring columns of numbers."""
+    return (Column(title, "number", group) for title in titles)
+
+
+def prose(*titles: str) -> Iterator[Column]:
+    """Neighbouring columns of words that may take several lines."""
+    return (Column(title, "prose") for title in titles)
+
+
 @dataclass(frozen=True)
 class Table:
     """Rows of text under captioned columns; a rule separates rows that differ in column `rule_by`.

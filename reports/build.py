@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from reports.figures.two_processes import draw, helper
-from reports.gallery import Entry, entry, gallery_place, render_gallery
+from reports.html.gallery import Entry, entry, gallery_place, render_gallery
 from reports.pages import rendered, write_pages
 from reports.result.load import load
 from reports.sections.content import report
@@ -19,11 +19,6 @@ def write_reports(directory: Path) -> tuple[Path, Path]:
     ----------
     directory : Path
         Holds comparison.nc, metrics.json and provenance.json, and ablation.json if there is one.
-
-    Returns
-    -------
-    tuple of Path
-        report.html and report.pdf.
 
     Raises
     ------

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from cases.shell.whole import write_whole
 from reports.blocks import Report
-from reports.html import render_html
-from reports.pdf import render_pdf
+from reports.html.render import render_html
+from reports.pdf.render import render_pdf
 
 
 def rendered(content: Report, drawings: Mapping[str, str]) -> tuple[bytes, bytes]:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cases.reading.case_file import CaseFile, load_case_file
+from cases.sections.doubts import doubts_of
 from cases.shell.command import COMPLETE, concluded
 from cases.shell.terminal import progress_bar
 from solver.case.locality import locality_warning
@@ -64,7 +65,11 @@ def _run(options: argparse.Namespace) -> int:
     identity = run_identity(file.text, variant, [path for path in case.input_files if path not in results])
     with progress_bar(f"{file.name} {variant}") as progress:
         done = run_to_file(case, options.output, identity, stated, options.resume, progress)
-    warnings = (locality_warning(done.get("wall_locality_error")), periodicity_warning(done["cycle_change"]))
+    warnings = (
+        *doubts_of(case),
+        locality_warning(done.get("wall_locality_error")),
+        periodicity_warning(done["cycle_change"]),
+    )
     for warning in filter(None, warnings):
         print(f"warning: {warning}", file=sys.stderr)
     print(f"{options.output}: {done['steps']} steps of at most {done['time_step_s']:.6g} s")

@@ -5,17 +5,23 @@ that is killed leaves no half of it. Its checksums (those of the zip format) tel
 longest ago go when the folder exceeds its limit.
 """
 
+import hashlib
 import os
 import time
+import warnings
 import zipfile
 import zlib
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from cases.arrays import Floats
+from solver.kernel_cache import usable_folder
 
 ABANDONED = 24 * 3600.0  # s after which an unfinished file belongs to a process that has died
 
@@ -99,3 +105,53 @@ def _use(path: Path) -> tuple[float, int]:
     except FileNotFoundError:
         return time.time(), 0
     return found.st_mtime, found.st_size
+
+
+LIMIT = 128 * 1024**2  # bytes: half a megabyte each on a grid of 120 x 48
+
+
+def digest_of(parts: Iterable[str | Floats]) -> str:
+    """Digest of words and arrays, shapes included."""
+    digest = hashlib.sha256()
+    for part in parts:
+        if isinstance(part, str):
+            digest.update(part.encode() + b"\0")
+        else:
+            digest.update(str(part.shape).encode() + np.ascontiguousarray(part, dtype=float).tobytes())
+    return digest.hexdigest()
+
+
+def kept_array(
+    name: str, parts: Iterable[str | Floats], compute: Callable[[], Floats], folder: Path | None = None
+) -> Floats:
+    """Array from the cache, or computed and put there.
+
+    Parameters
+    ----------
+    name : str
+        What it is: the first part of its file's name.
+    parts : iterable of str and ndarray
+        All that determines it.
+    compute : callable
+        Computes it.
+    folder : Path, optional
+        Default: the folder ``walls`` of the user's cache. Without a writable one nothing is kept.
+
+    Notes
+    -----
+    An entry that is damaged is computed again, with a warning.
+    """
+    place = usable_folder("walls") if folder is None else folder
+    if place is None:
+        return compute()
+    store, key = KeptArrays(place, LIMIT), f"{name}-{digest_of(parts)[:32]}"
+    try:
+        found = store.get(key)
+        if found is not None:
+            return found["values"]
+    except DamagedEntryError as damage:
+        warnings.warn(f"{damage}; computed anew", stacklevel=2)
+    values = np.ascontiguousarray(compute(), dtype=float)
+    with suppress(OSError):  # a cache that cannot be written costs time only
+        store.put(key, {"values": values})
+    return values

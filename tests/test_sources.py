@@ -10,15 +10,16 @@ from pathlib import Path
 
 import pytest
 
-from solver.kernel_cache import KERNELS
-from solver.sources import ROOT, sources_digest
+from solver.kernel_cache import KERNELS, ROOT, sources_digest
 from validation.runs.sources import DETERMINANTS
 
 PACKAGES = ("cases", "solver", "febio_io", "validation", "reports")
 ENTRIES = {
     "reduced model": ["validation.runs.reduced_model"],
     "reference": ["validation.reference.kinds"],
+    "budget": ["validation.compare.budget.sources"],
     "sweep": ["validation.sweep.chunk", "validation.sweep.design", "validation.sweep.samples"],
+    "input uncertainty": ["validation.compare.budget.inputs"],
     "tables": [
         f"validation.tables.{name}"
         for name in (
@@ -156,7 +157,7 @@ def digests(root):
     return {what: sources_digest(root / source for source in sources) for what, sources in kinds.items()}
 
 
-ALL_RESULTS = {"reduced model", "reference", "sweep"}
+ALL_RESULTS = {"reduced model", "reference", "sweep", "input uncertainty"}
 
 
 @pytest.mark.parametrize(

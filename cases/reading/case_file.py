@@ -11,6 +11,7 @@ from pydantic import ValidationError
 from cases.errors import CaseFileError, Problem
 from cases.reading.file_kinds import require_kind
 from cases.reading.problems import problems_of
+from cases.reading.uncertain_numbers import uncertainty_problems
 from cases.reading.variants import merge_variant
 from cases.reading.yaml_nodes import Node, parse_yaml, read_text
 from cases.sections.base import Section
@@ -57,7 +58,7 @@ CASE_KEYS = tuple(key for key in Case.model_fields if key != "title")
 FILE_KEYS = ("name", "title", *CASE_KEYS, "variants")
 
 
-def load_case_file(path: str | Path) -> CaseFile:
+def load_case_file(path: str | Path, results_exist: bool = True) -> CaseFile:
     """Read and check a case file.
 
     Files that it names are looked for relative to its folder, then to each folder above.
@@ -66,6 +67,8 @@ def load_case_file(path: str | Path) -> CaseFile:
     ----------
     path : str or pathlib.Path
         The case file (YAML).
+    results_exist : bool, optional
+        Whether the files of a 3D run must exist even where the case does not say how they are made.
 
     Returns
     -------
@@ -85,8 +88,10 @@ def load_case_file(path: str | Path) -> CaseFile:
     problems = unknown_keys(root, FILE_KEYS)
     heading = check_section(_Heading, part_of(root, ("name", "title")), None, problems)
     overrides = overrides_of(root, problems)
-    cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides)), problems)
+    cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides), results_exist), problems)
     problems += _tables_apart(cases, overrides)
+    merged = {name: merge_variant(part_of(root, CASE_KEYS), overrides[name]) for name in cases}
+    problems += uncertainty_problems(cases, merged)
     if problems or heading is None:
         raise CaseFileError.of_problems(path, problems)
     return CaseFile(path, text, heading.name, heading.title or heading.name, cases)

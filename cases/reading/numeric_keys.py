@@ -2,12 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any, get_args, get_origin
-
-from pydantic.fields import FieldInfo
+from typing import Any, get_args, get_origin
 
 from cases.reading.yaml_nodes import Scalar, join
-from cases.sections.base import Section, bare, is_section
+from cases.sections.base import Section, annotation_of, bare, is_section
 from cases.sections.case import Case
 from cases.values.kinds import ValueKind
 from cases.values.units import DIMENSION_OF_UNIT
@@ -58,7 +56,7 @@ def numeric_keys(case: Case) -> dict[str, NumericKey]:
 
 def _within(section: Section, path: tuple[str | int, ...]) -> Iterator[NumericKey]:
     for name, field in type(section).model_fields.items():
-        yield from _of_value(_annotation(field), getattr(section, name), (*path, name))
+        yield from _of_value(annotation_of(field), getattr(section, name), (*path, name))
 
 
 def _of_value(annotation: Any, value: object, path: tuple[str | int, ...]) -> Iterator[NumericKey]:
@@ -73,10 +71,6 @@ def _of_value(annotation: Any, value: object, path: tuple[str | int, ...]) -> It
         if kind is not None and kind.unit:
             number = float(value) if isinstance(value, int | float) else None
             yield NumericKey(join("", *path), path, kind, stated is int, number)
-
-
-def _annotation(field: FieldInfo) -> Any:
-    return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
 
 
 def _kind(annotation: Any) -> ValueKind | None:

@@ -1,16 +1,15 @@
 """From the schema's findings to messages: where each one stands, and what is allowed there."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any, get_args, get_origin
+from typing import Any, get_args, get_origin
 
 from pydantic import ValidationError
-from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from cases.errors import Problem, RefusedValueError
 from cases.reading.variants import DISCRIMINATORS
 from cases.reading.yaml_nodes import Node
-from cases.sections.base import Section, bare, is_section, keys_by_tag, members_by_tag
+from cases.sections.base import Section, annotation_of, bare, is_section, keys_by_tag, members_by_tag
 from cases.values.kinds import ValueKind
 from cases.values.wording import choices, not_one_of, shown, unknown_key
 
@@ -19,15 +18,6 @@ Path = tuple[str | int, ...]
 
 def problems_of(error: ValidationError, schema: type[Section], root: Node) -> list[Problem]:
     """Describe what the schema found, with the lines of the file.
-
-    Parameters
-    ----------
-    error : pydantic.ValidationError
-        What `schema` found in ``root.plain()``.
-    schema : type
-        The schema.
-    root : Node
-        The checked tree.
 
     Returns
     -------
@@ -111,7 +101,7 @@ def _resolve(schema: type[Section], location: Path) -> _Place:
         if is_section(kind):
             path += (part,)
             field = kind.model_fields.get(str(part))
-            kind = kind if field is None else _annotation(field)
+            kind = kind if field is None else annotation_of(field)
         elif get_origin(kind) is tuple:
             path += (part,)
             items = get_args(kind)
@@ -120,10 +110,6 @@ def _resolve(schema: type[Section], location: Path) -> _Place:
             section, union = path, kind
             kind = members_by_tag(kind)[str(part)]
     return _Place(path, kind, section, union)
-
-
-def _annotation(field: FieldInfo) -> object:
-    return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
 
 
 def _keys_beside(kind: Any) -> list[str]:

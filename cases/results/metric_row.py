@@ -8,6 +8,7 @@ from pydantic import ConfigDict, Field, FiniteFloat
 
 Status = Literal["", "OK", "FAIL", "MISSING"]
 Model = Literal["reference", "rom"]
+Inflow = Literal["", "matched"]
 Number = Annotated[int, Field(ge=1)]
 Limit = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 
@@ -20,6 +21,9 @@ class MetricRow:
     ----------
     case, variant, quantity, statistic : str
         What it is about; quantities are those of `cases.fields`, statistics of `cases.statistics`.
+    inflow : str
+        Empty for the reduced model as the case states it; "matched" where the flow rate that the 3D
+        reference takes in drives it.
     i, j : int or None
         Cell, counted from 1.
     t_s : float or None
@@ -41,6 +45,7 @@ class MetricRow:
     variant: str
     quantity: str
     statistic: str
+    inflow: Inflow
     i: Number | None
     j: Number | None
     t_s: FiniteFloat | None
@@ -76,10 +81,13 @@ def metric_row(
     error: float | None = None,
     unit: str = "",
     band: float | None = None,
+    inflow: Inflow = "",
 ) -> MetricRow:
     """Return a row with the columns that it has no figure for empty; a band judges its error."""
     status: Status = "" if band is None else judged(error, band)
-    return MetricRow(case, variant, quantity, statistic, i, j, t_s, rom, reference, error, unit, band, status)
+    return MetricRow(
+        case, variant, quantity, statistic, inflow, i, j, t_s, rom, reference, error, unit, band, status
+    )
 
 
 def judged(error: float | None, band: float | None) -> Status:

@@ -99,6 +99,8 @@ class ReferenceSettings(_Settings):
     ----------
     coverage : float, optional
         Share of the cycle that its states cover, 0 … 1.
+    cycle_change : float, optional
+        Largest relative change of its pressure, flow rate and lumen volume over a cycle.
     simulation : str, optional
         "3D" or "2D", where a table holds the results of both.
     cost : SimulationCost, optional
@@ -108,6 +110,7 @@ class ReferenceSettings(_Settings):
     """
 
     coverage: Share | None = None
+    cycle_change: Amount | None = None
     simulation: str | None = None
     cost: SimulationCost | None = None
     data_records: tuple[RecordCheck, ...] = ()

@@ -7,6 +7,7 @@ from types import UnionType
 from typing import Annotated, Any, TypeGuard, Union, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Tag
+from pydantic.fields import FieldInfo
 
 SAME = 1e-9  # relative difference of sums and periods that are meant to be equal
 
@@ -35,6 +36,11 @@ def bare(kind: Any) -> Any:
     if get_origin(kind) in (Union, UnionType) and len(members) == 1:
         return bare(members[0])
     return kind
+
+
+def annotation_of(field: FieldInfo) -> Any:
+    """Return the whole annotation of a section's key."""
+    return Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
 
 
 def is_section(kind: object) -> TypeGuard[type[Section]]:

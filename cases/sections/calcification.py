@@ -3,7 +3,7 @@
 import math
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Tag, field_validator
+from pydantic import AfterValidator, Discriminator, Tag, field_validator
 
 from cases.sections.base import Section, told_apart_by
 from cases.values.kinds import (
@@ -46,6 +46,15 @@ def _sharp(value: object, _context: Context | None) -> str:
 Sharp = Annotated[Literal["sharp"], ValueKind(_sharp, "sharp", {"enum": ["sharp"]}), Tag("sharp")]
 
 
+def _increasing(x: tuple[float, float]) -> tuple[float, float]:
+    if not x[0] < x[1]:
+        raise refused(f"{x[0]:g} m to {x[1]:g} m", "a first position below the last one")
+    return x
+
+
+Ends = Annotated[tuple[Position, Position], AfterValidator(_increasing)]
+
+
 class NoCalcification(Section):
     """A healthy wall everywhere."""
 
@@ -72,13 +81,8 @@ class AxisymmetricCalcification(Section):
 
     pattern: Literal["axisymmetric"]
     youngs_modulus: Modulus
-    x: tuple[Position, Position]
+    x: Ends
     transition: Annotated[Sharp | Annotated[AxialTransition, Tag("smooth")], Discriminator(_transition_tag)]
-
-    @field_validator("x")
-    @classmethod
-    def _x(cls, x: tuple[float, float]) -> tuple[float, float]:
-        return _increasing(x)
 
     @property
     def parts(self) -> tuple["Part", ...]:
@@ -103,14 +107,9 @@ class LocalCalcification(Section):
 
     pattern: Literal["local"]
     youngs_modulus: Modulus
-    x: tuple[Position, Position]
+    x: Ends
     phi: tuple[Angle, Angle]
     transition: Annotated[Sharp | Annotated[PatchTransition, Tag("smooth")], Discriminator(_transition_tag)]
-
-    @field_validator("x")
-    @classmethod
-    def _x(cls, x: tuple[float, float]) -> tuple[float, float]:
-        return _increasing(x)
 
     @field_validator("phi")
     @classmethod
@@ -127,12 +126,6 @@ class LocalCalcification(Section):
 
 
 Part = Annotated[AxisymmetricCalcification, Tag("axisymmetric")] | Annotated[LocalCalcification, Tag("local")]
-
-
-def _increasing(x: tuple[float, float]) -> tuple[float, float]:
-    if not x[0] < x[1]:
-        raise refused(f"{x[0]:g} m to {x[1]:g} m", "a first position below the last one")
-    return x
 
 
 class SeveralCalcifications(Section):

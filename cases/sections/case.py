@@ -6,78 +6,25 @@ from typing import TYPE_CHECKING, Annotated
 from pydantic import Field, ValidationInfo, field_validator
 
 from cases.sections.base import SAME, Section, told_apart_by, union_by_tag
-from cases.sections.calcification import (
-    AxialTransition,
-    AxisymmetricCalcification,
-    Calcification,
-    LocalCalcification,
-    NoCalcification,
-    PatchTransition,
-    SeveralCalcifications,
-)
-from cases.sections.compare import Band, Cells, Compare
-from cases.sections.inlet import FlowInlet, Inlet, PressureInlet, VelocityInlet
-from cases.sections.outlet import (
-    NonReflectingOutlet,
-    Outlet,
-    PressureOutlet,
-    ResistanceOutlet,
-    WindkesselOutlet,
-)
+from cases.sections.calcification import Calcification, LocalCalcification, SeveralCalcifications
+from cases.sections.compare import Compare
+from cases.sections.inlet import Inlet
+from cases.sections.outlet import NonReflectingOutlet, Outlet, PressureOutlet, ResistanceOutlet
 from cases.sections.references.base import ReferenceSection
-from cases.sections.references.febio import FebioReference, Generate, RecordFile
 from cases.sections.references.kinds import KINDS
-from cases.sections.references.tables import TablesReference
 from cases.sections.solver import (
     FEWEST_ROWS,
     MOST_STATES,
     MOST_STEPS,
     RESOLVED_PER_CYCLE,
     GodunovSolver,
-    SemiImplicitSolver,
     Solver,
     Start,
 )
-from cases.sections.sources import FourierSeries
-from cases.sections.wall import MembraneWall, Wall, row_wall
+from cases.sections.uncertainty import Uncertainty
+from cases.sections.wall import Wall, row_wall
 from cases.sections.wall_laws import LAWS
 from cases.values.kinds import ArteryLength, Density, Radius, Thickness, Viscosity, Words, refused
-
-__all__ = [
-    "AxialTransition",
-    "AxisymmetricCalcification",
-    "Band",
-    "Blood",
-    "Calcification",
-    "Case",
-    "Cells",
-    "Compare",
-    "FebioReference",
-    "FlowInlet",
-    "FourierSeries",
-    "Generate",
-    "Geometry",
-    "GodunovSolver",
-    "Inlet",
-    "LocalCalcification",
-    "MembraneWall",
-    "NoCalcification",
-    "NonReflectingOutlet",
-    "Outlet",
-    "PatchTransition",
-    "PressureInlet",
-    "PressureOutlet",
-    "RecordFile",
-    "ReferenceSection",
-    "ResistanceOutlet",
-    "SemiImplicitSolver",
-    "SeveralCalcifications",
-    "Solver",
-    "TablesReference",
-    "VelocityInlet",
-    "Wall",
-    "WindkesselOutlet",
-]
 
 if TYPE_CHECKING:
     Reference = ReferenceSection
@@ -127,6 +74,8 @@ class Case(Section):
         The 3D results to compare with, of a kind of :data:`cases.sections.references.kinds.KINDS`.
     compare : Compare
         Cells (on the solver's grid), times (of the inlet's cycle) and bands of the comparison.
+    uncertainty : Uncertainty or None
+        How uncertain its inputs are.
     """
 
     title: Words
@@ -139,6 +88,7 @@ class Case(Section):
     solver: Annotated[Solver, told_apart_by("scheme")]
     reference: Annotated[Reference, told_apart_by("kind")] | None = None
     compare: Compare = Field(default=Compare(), validate_default=True)
+    uncertainty: Uncertainty | None = None
 
     @field_validator("wall")
     @classmethod

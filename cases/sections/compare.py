@@ -13,6 +13,7 @@ from cases.sections.base import Section
 from cases.statistics import JUDGED
 from cases.values.kinds import (
     Context,
+    Switch,
     ValueKind,
     Words,
     distinct,
@@ -208,11 +209,15 @@ class Compare(Section):
         a constant inlet the only event is end diastole.
     bands : tuple of Band
         The declared bands; may be empty.
+    matched_inflow : bool
+        Whether the reduced model also runs with the flow rate that the 3D reference takes in, so that what
+        both owe to their inlets is told apart.
     """
 
     cells: Cells = Cells()
     times: tuple[Instant, ...] = ("systole", "second trough", "end diastole")
     bands: tuple[Band, ...] = ()
+    matched_inflow: Switch = False
 
     _times = field_validator("times")(distinct)
 

@@ -1,6 +1,6 @@
-"""The inlet: a prescribed mean velocity, flow rate or pressure."""
+"""The inlet: a prescribed mean velocity, flow rate or pressure, or the inflow of the 3D reference."""
 
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, InstanceOf, Tag, ValidationInfo, field_validator, model_validator
 from pydantic_core.core_schema import ValidatorFunctionWrapHandler
@@ -107,8 +107,28 @@ class PressureInlet(PrescribedInlet):
     fourier: PressureFourier | None = None
 
 
+class ReferenceInlet(Section):
+    """The flow rate that the mesh of the 3D reference takes in, which a comparison reads from it.
+
+    Attributes
+    ----------
+    period : float
+        Duration of a cycle in s.
+    """
+
+    waveform: ClassVar[None] = None
+    value: ClassVar[None] = None
+    fourier: ClassVar[None] = None
+    scale: ClassVar[float] = 1.0
+    ramp: ClassVar[None] = None
+
+    kind: Annotated[Literal["reference"], one_of(Literal["reference"])]
+    period: Period
+
+
 Inlet = (
     Annotated[VelocityInlet, Tag("velocity")]
     | Annotated[FlowInlet, Tag("flow")]
     | Annotated[PressureInlet, Tag("pressure")]
+    | Annotated[ReferenceInlet, Tag("reference")]
 )

@@ -14,6 +14,7 @@ from cases.values.units import parse_number
 from cases.values.wording import but_allowed, choices, nearest, shown
 
 LARGEST_FILE = 10_000_000
+SEPARATORS = {"\t": "tabs", ";": "semicolons", "|": "bars", " ": "blanks"}
 MMHG = Decimal("133.322387415")
 
 
@@ -147,6 +148,12 @@ def read_samples(path: Path, first: Column, second: Column, fewest_rows: int) ->
 def _check_header(line: int, names: list[str], first: Column, second: Column) -> None:
     """Refuse a header that does not name the two columns."""
     known = [*first.factors, *second.factors]
+    for separator, word in SEPARATORS.items():
+        parts = [part.strip() for name in names for part in name.split(separator)]
+        if len(parts) > len(names) and parts[0] in known:
+            raise ColumnFileError(
+                f", line {line}: {word} separate columns; allowed: commas, and decimal points"
+            )
     for name in names:
         if name not in known:
             raise ColumnFileError(f", line {line}: {but_allowed(_unknown(name, known), choices(known))}")
@@ -168,7 +175,8 @@ def _row(
 ) -> tuple[float, float]:
     """Return the two values of one row, in SI units."""
     if len(cells) != len(names):
-        raise ColumnFileError(f", line {line}: {len(cells)} columns; allowed: {len(names)}")
+        decimals = ": are there decimal commas?" if len(cells) == 2 * len(names) else ""
+        raise ColumnFileError(f", line {line}: {len(cells)} columns; allowed: {len(names)}{decimals}")
     values = []
     for name, cell, column in zip(names, cells, columns, strict=True):
         found = f", line {line}: {name}: {shown(cell)}"

@@ -59,18 +59,6 @@ def _nearest(name: str, folder: Path, fits: Callable[[Path], bool]) -> Path | No
 def read_file(path: Path, largest: int) -> bytes:
     """Read a regular file: no folder, device or pipe, which may never end.
 
-    Parameters
-    ----------
-    path : pathlib.Path
-        The file.
-    largest : int
-        How many bytes it may have.
-
-    Returns
-    -------
-    bytes
-        All that it holds.
-
     Raises
     ------
     UnreadableFileError

@@ -42,10 +42,21 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Context:
-    """What the schema must know beyond the values: where files are looked for, and the file's variants."""
+    """What the schema must know beyond the values.
+
+    Attributes
+    ----------
+    folder : pathlib.Path
+        Where files are looked for.
+    variants : tuple of str
+        Names of the file's variants.
+    results_exist : bool
+        Whether the files of a 3D run must exist where the case does not say how they are made.
+    """
 
     folder: Path
     variants: tuple[str, ...]
+    results_exist: bool = True
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,21 +1,30 @@
-"""The command ``python -m febio_io.feb``: the FEBio model of a case file."""
+"""The command ``python -m febio_io.feb``: the FEBio model of a case file.
+
+It alone joins the two models: the reduced one finds the periodic state in which FEBio's Windkessel starts.
+"""
 
 import argparse
 import sys
 import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
+from cases.arrays import Floats
 from cases.errors import QuantityError
 from cases.reading.case_file import CaseFile, load_case_file
 from cases.sections.case import Case
 from cases.sections.references.febio import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
 from cases.shell.command import COMPLETE, concluded
+from cases.shell.terminal import progress_bar
 from cases.values.ranges import TIME_STEPS
 from cases.values.units import DIMENSIONS, parse_quantity
 from febio_io.feb.from_case import Choices, artery_model
-from febio_io.feb.model import FebioModelError, MeshSize
+from febio_io.feb.model import FebioModelError, MeshSize, Windkessel
+from febio_io.feb.windkessel_start import CLOSE
 from febio_io.feb.writer import write_model
+from solver.case.periodic_outlet import periodic_outlet_flow
+from solver.case.periodicity import PERIODIC
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -27,9 +36,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     if options.output.suffix != ".feb":
         raise FebioModelError(f"--output {options.output}: allowed: a name that ends in .feb")
-    file = load_case_file(options.case)
+    file = load_case_file(options.case, results_exist=False)
     name, case = _variant(file, options.variant)
-    model = artery_model(case, _choices(options, case))
+    flow = partial(_periodic_flow, f"{file.name} {name}")
+    model = artery_model(case, _choices(options, case), flow)
     begin = time.perf_counter()
     for warning in write_model(model, options.output):
         print(f"warning: {options.case}: {name}: {warning}", file=sys.stderr)
@@ -38,7 +48,24 @@ def _run(options: argparse.Namespace) -> int:
         f"{model.timing.n_steps} steps of {model.timing.time_step:.6g} s "
         f"({time.perf_counter() - begin:.1f} s)"
     )
+    if isinstance(model.outlet, Windkessel):
+        print(_started(model.outlet))
     return COMPLETE
+
+
+def _periodic_flow(label: str, case: Case) -> Floats:
+    with progress_bar(label) as progress:
+        return periodic_outlet_flow(case, progress)
+
+
+def _started(outlet: Windkessel) -> str:
+    """Tell where a Windkessel starts and what that saves."""
+    cycles = outlet.cycles_from_rest
+    return (
+        f"outlet: starts within {100 * PERIODIC:g} % of its periodic pressure by the reduced model, "
+        f"{outlet.start / 1e3:.4g} kPa; started from zero it would take {cycles} "
+        f"cycle{'' if cycles == 1 else 's'} to come within {100 * CLOSE:g} %"
+    )
 
 
 def arguments(argv: Sequence[str] | None) -> argparse.Namespace:

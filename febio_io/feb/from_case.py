@@ -1,6 +1,7 @@
 """From a checked case to FEBio's model of it."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -8,26 +9,21 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from cases.arrays import Floats
-from cases.sections.case import (
-    Case,
-    FourierSeries,
-    LocalCalcification,
-    NonReflectingOutlet,
-    PressureOutlet,
-    ResistanceOutlet,
-    VelocityInlet,
-    WindkesselOutlet,
-)
+from cases.sections.calcification import LocalCalcification
+from cases.sections.case import Case
+from cases.sections.inlet import VelocityInlet
+from cases.sections.outlet import NonReflectingOutlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
 from cases.sections.references.base import ReferenceSection
 from cases.sections.references.febio import FebioReference
+from cases.sections.sources import FourierSeries
 from cases.sections.wall import row_wall
 from cases.sections.wall_laws import LAWS
 from cases.sections.wall_laws.law import HomogeneousWall
 from cases.values.waveform_file import Waveform
-from febio_io.feb.load_curves import Signal, cycles_after_ramp, ramp_curve
 from febio_io.feb.model import (
     ArteryModel,
     Blood,
+    Curve,
     FebioModelError,
     Frame,
     MeshSize,
@@ -40,10 +36,51 @@ from febio_io.feb.model import (
     Wall,
     Windkessel,
 )
+from febio_io.feb.windkessel_start import Periodic, cycles_from_rest, start_curves
+
+RAMP_POINTS = 51
+SPACING = 2e-3  # s, in a heartbeat: the waveform's curvature is followed to 1e-3 of its height
+FEWEST_PER_CYCLE = 200
+
+Signal = Callable[[Floats], Floats]
+
+
+def ramp_curve(duration: float) -> Curve:
+    """Half a cosine from 0 to 1 over a duration (s)."""
+    share = np.linspace(0.0, 1.0, RAMP_POINTS)
+    return Curve(duration * share, 0.5 - 0.5 * np.cos(np.pi * share))
+
+
+def cycles_after_ramp(signal: Signal, period: float, cycles: int, ramp: float) -> Curve:
+    """Give a periodic signal that is reached by a ramp.
+
+    Parameters
+    ----------
+    signal : callable
+        From times (n,) in [0, period) to values (n,).
+    period : float
+        Length of the cycle, s.
+    cycles : int
+        How many follow the ramp.
+    ramp : float
+        Duration of the ramp, s: half a cosine from 0 to the signal's first value.
+    """
+    start = ramp_curve(ramp)
+    per_cycle = max(period / min(SPACING, period), FEWEST_PER_CYCLE)
+    times = np.linspace(0.0, cycles * period, round(cycles * per_cycle) + 1)[1:]
+    # The last instant of each cycle is the first of the next.
+    phase = np.where(np.isclose(times % period, period, rtol=0, atol=1e-9 * period), 0.0, times % period)
+    first = float(signal(np.zeros(1))[0])
+    return Curve(
+        np.concatenate([start.times, ramp + times]), np.concatenate([first * start.values, signal(phase)])
+    )
+
 
 STEPS_PER_CYCLE = 200
 RAMP_SHARE = 0.25  # of a cycle, where no reference tells when the cycles start
 SLACK = 1e-3  # of a step, by which the last one may miss the end of the last cycle
+
+OutletFlow = Callable[[Case], Floats]
 
 
 @dataclass(frozen=True)
@@ -71,7 +108,7 @@ class Choices:
     records: str | None = None
 
 
-def artery_model(case: Case, choices: Choices) -> ArteryModel:
+def artery_model(case: Case, choices: Choices, outlet_flow: OutletFlow) -> ArteryModel:
     """Give the model of a case.
 
     Parameters
@@ -81,11 +118,9 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
         ``time_offset``.
     choices : Choices
         What the case leaves open.
-
-    Returns
-    -------
-    ArteryModel
-        The model.
+    outlet_flow : callable
+        From a case with a Windkessel to one cycle of its periodic flow through the outlet at equal intervals,
+        without the cycle's end, m³/s (n,); asked last, and for no other outlet.
 
     Raises
     ------
@@ -97,7 +132,7 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
     ramp = offset if offset > 0 else RAMP_SHARE * period
     if not isinstance(case.inlet, VelocityInlet):
         raise _refused("inlet.kind", case.inlet.kind, "velocity")
-    inlet = case.inlet
+    inlet, timing = case.inlet, _timing(period, ramp, choices)
     inflow = partial(_scaled, _signal(inlet.waveform, inlet.value, inlet.fourier), inlet.scale)
     return ArteryModel(
         vessel=Vessel(geometry.length, geometry.radius, geometry.wall_thickness),
@@ -108,9 +143,9 @@ def artery_model(case: Case, choices: Choices) -> ArteryModel:
         patch=_patch(case),
         inflow=cycles_after_ramp(inflow, period, choices.cycles, ramp),
         ramp=ramp_curve(ramp),
-        outlet=_outlet(case, choices.cycles, ramp),
-        timing=_timing(period, ramp, choices),
+        timing=timing,
         records=choices.records,
+        outlet=_outlet(case, choices, ramp, timing, outlet_flow),
     )
 
 
@@ -163,7 +198,7 @@ def _patch(case: Case) -> Patch | None:
     return Patch(calcification.youngs_modulus, calcification.x, phi)
 
 
-def _outlet(case: Case, cycles: int, ramp: float) -> Outlet:
+def _outlet(case: Case, choices: Choices, ramp: float, timing: Timing, outlet_flow: OutletFlow) -> Outlet:
     outlet = case.outlet
     match outlet:
         case ResistanceOutlet(flow="section"):
@@ -171,17 +206,39 @@ def _outlet(case: Case, cycles: int, ramp: float) -> Outlet:
         case ResistanceOutlet():
             raise _refused("outlet.flow", outlet.flow, "section: the 3D outlet has one pressure")
         case WindkesselOutlet():
-            return Windkessel(
-                outlet.proximal_resistance,
-                outlet.distal_resistance,
-                outlet.compliance,
-                outlet.venous_pressure,
-            )
+            # The mesh's lumen is a polygon within the circle, and carries as much less.
+            flow = choices.size.section_share * outlet_flow(case)
+            return _windkessel(outlet, flow, case.inlet.period, ramp, timing)
         case PressureOutlet():
             signal = _signal(outlet.waveform, outlet.value, None)
-            return PrescribedPressure(cycles_after_ramp(signal, case.inlet.period, cycles, ramp))
+            return PrescribedPressure(cycles_after_ramp(signal, case.inlet.period, choices.cycles, ramp))
         case NonReflectingOutlet():
             raise _refused("outlet.kind", outlet.kind, "resistance, windkessel, pressure")
+
+
+def _windkessel(
+    outlet: WindkesselOutlet, flow: Floats, period: float, ramp: float, timing: Timing
+) -> Windkessel:
+    periodic = Periodic(
+        outlet.proximal_resistance,
+        outlet.distal_resistance,
+        outlet.compliance,
+        outlet.venous_pressure,
+        flow,
+        period,
+        timing.time_step,
+    )
+    start = ramp_curve(ramp)
+    share, offset = start_curves(periodic, start, timing.n_steps)
+    return Windkessel(
+        periodic.proximal_resistance,
+        periodic.distal_resistance,
+        periodic.compliance,
+        distal_share=share,
+        offset=offset,
+        start=float(periodic.pressure_at(np.zeros(1))[0]),
+        cycles_from_rest=cycles_from_rest(periodic, start),
+    )
 
 
 def _signal(waveform: Waveform | None, value: float | None, fourier: FourierSeries | None) -> Signal:

@@ -106,6 +106,12 @@ class MeshSize:
         return (squares + self.n_theta * (self.n_r + self.n_wall)) * self.n_z
 
     @property
+    def section_share(self) -> float:
+        """Area of the lumen's section, a polygon, over the circle's."""
+        turn = 2.0 * np.pi / self.n_theta
+        return float(np.sin(turn) / turn)
+
+    @property
     def core_elements(self) -> int:
         """Elements at the axis between two planes."""
         return (self.n_theta // 4) ** 2 if self.core == "o_grid" else self.n_theta
@@ -167,12 +173,29 @@ class Resistance:
 
 @dataclass(frozen=True)
 class Windkessel:
-    """C dP_c/dt = q − (P_c − P_v)/R₂, P = P_c + R₁ q; Pa s/m³, m³/Pa, Pa."""
+    """C dP_c/dt = q − (P_c − P_v)/R₂, P = P_c + R₁ q; Pa s/m³, m³/Pa.
+
+    Attributes
+    ----------
+    proximal_resistance, distal_resistance, compliance : float
+        R₁, which is ramped, R₂ and C.
+    distal_share : Curve
+        By what R₂ is multiplied.
+    offset : Curve
+        P_v and, at the start, the charge that the capacitor does not hold yet, Pa.
+    start : float
+        Its periodic pressure where the cycles begin, Pa.
+    cycles_from_rest : int
+        Cycles in which it would come within 1 % of its periodic pressure without that charge.
+    """
 
     proximal_resistance: float
     distal_resistance: float
     compliance: float
-    venous_pressure: float
+    distal_share: Curve
+    offset: Curve
+    start: float
+    cycles_from_rest: int
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ ALL_NODES, BLOOD_NODES, INTERFACE_NODES = "All_nodes", "Lumen_nodes", "Interface
 INLET_NODES, AXIS_NODES = "Inlet_nodes", "Center_nodes"
 # Wall nodes in the planes across and along φ = 0, which in the model's own axes are those of x = 0 and y = 0.
 ACROSS_NODES, ALONG_NODES = "Wall_x0", "Wall_y0"
-INFLOW_CURVE, RAMP_CURVE, PRESSURE_CURVE = 1, 2, 3
+INFLOW_CURVE, RAMP_CURVE, PRESSURE_CURVE, DISTAL_CURVE = 1, 2, 3, 4
 # What the comparison needs; the flow rate once a surface, as FEBio keeps one set of areas a variable.
 PLOTTED = ("displacement", "nodal fluid velocity", "fluid pressure")
 STEPS_DOWN = 64  # how often a failing time step may be halved, as a factor
@@ -175,9 +175,9 @@ def _outlet(section: Element, outlet: Outlet) -> None:
         case Windkessel():
             condition = SubElement(section, "bc", name="outlet", surface=OUTLET, type="fluid RCR")
             _ramped(condition, "R", outlet.proximal_resistance)
-            _ramped(condition, "Rd", outlet.distal_resistance)
+            SubElement(condition, "Rd", lc=str(DISTAL_CURVE)).text = number(outlet.distal_resistance)
             _leaves(condition, {"capacitance": number(outlet.compliance)})
-            _ramped(condition, "pressure_offset", outlet.venous_pressure)
+            SubElement(condition, "pressure_offset", lc=str(PRESSURE_CURVE)).text = "1"
             _leaves(condition, {"initial_pressure": "0"})
         case PrescribedPressure():
             condition = SubElement(section, "bc", name="outlet", surface=OUTLET, type="fluid pressure")
@@ -205,8 +205,12 @@ def load_data(model: ArteryModel) -> Element:
     section = Element("LoadData")
     _curve(section, INFLOW_CURVE, "inflow", model.inflow)
     _curve(section, RAMP_CURVE, "ramp", model.ramp)
-    if isinstance(model.outlet, PrescribedPressure):
-        _curve(section, PRESSURE_CURVE, "outlet pressure", model.outlet.pressure)
+    match model.outlet:
+        case PrescribedPressure(pressure):
+            _curve(section, PRESSURE_CURVE, "outlet pressure", pressure)
+        case Windkessel(distal_share=share, offset=offset):
+            _curve(section, PRESSURE_CURVE, "pressure offset", offset)
+            _curve(section, DISTAL_CURVE, "distal resistance", share)
     return section
 
 

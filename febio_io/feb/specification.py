@@ -1,123 +1,94 @@
-"""What FEBio 4 (``febio_spec version="4.0"``) allows in a fluid-FSI model, as far as arteries need it.
+"""What FEBio 4.11 knows of the models (.feb) that this package writes, from its public source and manual.
 
-From FEBio's user manual and feature manual; one table, which :mod:`febio_io.feb.structure` checks files by.
+Names that are not here may well be those of a plugin, of another kind of model or of a later version: nothing
+is said against them, but that they have not been checked.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
+import re
 
-from febio_io.xplt.elements import ELEMENT_TYPES
-
-
-@dataclass(frozen=True)
-class Tag:
-    """One kind of element: its attributes, and the elements it may hold; without any it holds text.
-
-    Attributes
-    ----------
-    required, optional : tuple of str
-        Names of attributes.
-    children : mapping of str to Tag
-        By their names.
-    types : mapping of str to tuple of str
-        Where the attribute "type" decides: names of the parameters of each type.
-    """
-
-    required: tuple[str, ...] = ()
-    optional: tuple[str, ...] = ()
-    children: Mapping[str, "Tag"] = field(default_factory=lambda: MappingProxyType({}))
-    types: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: MappingProxyType({}))
-
-
-NODES_OF_ELEMENT = {
-    element.name: element.nodes for element in ELEMENT_TYPES.values() if not element.name.startswith("line")
+UNKNOWN = "unknown to FEBio 4.11"
+READ_BY_FEBIO_4 = ("1.2", "2.0", "2.5", "3.0", "4.0")
+CHECKED = ("2.5", "3.0", "4.0")
+NODES_OF_FACET = {
+    "tri3": 3,
+    "tri6": 6,
+    "tri7": 7,
+    "tri10": 10,
+    "quad4": 4,
+    "quad8": 8,
+    "quad9": 9,
+    "line2": 2,
+    "line3": 3,
 }
-NODES_OF_FACET = {"tri3": 3, "tri6": 6, "tri7": 7, "quad4": 4, "quad8": 8, "quad9": 9}
-PARAMETER = Tag(optional=("lc", "type"))
-_TEXT = Tag()
-
-
-def _texts(*names: str) -> dict[str, Tag]:
-    return dict.fromkeys(names, _TEXT)
-
-
-_STEPPER = _texts("max_retries", "opt_iter", "dtmin", "dtmax", "aggressiveness", "cutback", "dtforce")
-_QN = _texts("max_ups", "max_buffer_size", "cycle_buffer", "cmax")
-_SOLVER = _texts(
-    *("symmetric_stiffness", "equation_scheme", "equation_order", "optimize_bw", "lstol", "lsmin", "lsiter"),
-    *("ls_check_jacobians", "max_refs", "check_zero_diagonal", "zero_diagonal_tol", "force_partition"),
-    *("reform_each_time_step", "reform_augment", "diverge_reform", "min_residual", "max_residual", "dtol"),
-    *("vtol", "ftol", "etol", "rtol", "rhoi", "predictor", "min_volume_ratio", "order"),
+SECTIONS = (
+    *("Module", "Control", "Globals", "Material", "Mesh", "MeshDomains", "MeshData", "MeshAdaptor"),
+    *("Boundary", "Initial", "Loads", "Contact", "Constraints", "Discrete", "Rigid", "Step", "LoadData"),
+    *("Output", "Include", "Code"),
 )
-_CONTROL = {
-    **_texts(
-        "analysis", "time_steps", "step_size", "plot_zero_state", "plot_range", "plot_level", "plot_stride"
+CHILDREN = {
+    "Mesh": (
+        *("Nodes", "Elements", "NodeSet", "Surface", "Edge", "ElementSet", "PartList", "SurfacePair"),
+        "DiscreteSet",
     ),
-    **_texts("output_level", "output_stride", "adaptor_re_solve"),
-    "time_stepper": Tag(("type",), children=_STEPPER),
-    "solver": Tag(("type",), children={**_SOLVER, "qn_method": Tag(("type",), children=_QN)}),
+    "MeshDomains": ("SolidDomain", "ShellDomain", "BeamDomain"),
+    "Boundary": ("bc",),
+    "Initial": ("ic",),
+    "Loads": ("nodal_load", "surface_load", "edge_load", "body_load"),
+    "Rigid": ("rigid_bc", "rigid_ic", "rigid_load", "rigid_connector"),
+    "Step": ("step",),
+    "LoadData": ("load_controller",),
+    "Output": ("plotfile", "logfile"),
 }
-_ELASTIC = dict.fromkeys(("neo-Hookean", "isotropic elastic"), ("density", "E", "v"))
-_VISCOUS = {"Newtonian fluid": ("kappa", "mu"), "Carreau": ("mu0", "mui", "lambda", "n")}
-_MATERIAL = Tag(
-    ("id", "name", "type"),
-    children={
-        "solid": Tag(("type",), types=_ELASTIC),
-        "fluid": Tag(
-            ("type",),
-            children={
-                **dict.fromkeys(("density", "k"), PARAMETER),
-                "viscous": Tag(("type",), types=_VISCOUS),
-                "elastic": Tag(("type",), types={"linear": ()}),
-            },
-        ),
+# Attributes that must be there; of several, one.
+REQUIRED = {
+    "SolidDomain": ("name", "mat"),
+    "ShellDomain": ("name", "mat"),
+    "BeamDomain": ("name", "mat"),
+    "bc": ("type",),
+    "surface_load": ("type", "surface"),
+    "nodal_load": ("type", "node_set"),
+    "load_controller": ("id", "type"),
+}
+_ELASTIC = ("density", "E", "v", "mat_axis")
+_FLUID = ("density", "k", "viscous", "elastic")
+# All that FEBio 4.11 reads in what models of arteries (of this module; others know the same names with other
+# parameters) are made of; "" is a tag without a type.
+KNOWN_MODULE = "fluid-FSI"
+PARAMETERS: dict[str, dict[str, tuple[str, ...]]] = {
+    "material": {
+        "neo-Hookean": _ELASTIC,
+        "isotropic elastic": _ELASTIC,
+        "fluid-FSI": ("solid", "fluid"),
+        "fluid": _FLUID,
     },
-    types={**_ELASTIC, "fluid-FSI": ()},
+    "solid": {"neo-Hookean": _ELASTIC, "isotropic elastic": _ELASTIC},
+    "fluid": {"": _FLUID, "fluid": _FLUID},
+    "viscous": {"Newtonian fluid": ("kappa", "mu"), "Carreau": ("mu0", "mui", "lambda", "n")},
+    "bc": {
+        "zero displacement": ("x_dof", "y_dof", "z_dof"),
+        "zero fluid velocity": ("wx_dof", "wy_dof", "wz_dof"),
+        "zero fluid dilatation": (),
+        "fluid pressure": ("pressure",),
+        "fluid resistance": ("R", "pressure_offset"),
+        "fluid RCR": ("R", "Rd", "capacitance", "pressure_offset", "initial_pressure", "Bernoulli"),
+    },
+    "surface_load": {
+        "fluid normal velocity": (
+            *("velocity", "prescribe_nodal_velocities", "parabolic", "prescribe_rim_pressure", "value"),
+        ),
+        "fluid backflow stabilization": ("beta",),
+        "fluid tangential stabilization": ("beta",),
+        "fluid-FSI traction": ("shell_bottom",),
+    },
+}
+_ELEMENT = re.compile(
+    r"(?:hex|penta|pyra|tet|quad|tri|truss|line)(\d{1,2})s?"  # hex8, and tri3s of rigid shells
+    r"|(?:HEX|PENTA|TET|QUAD|TRI)(\d{1,2})G\w+"  # with their integration rule
+    r"|q(4)(?:eas|ans|s)|ut(4)"  # shells, and the tetrahedron of nodal strain
 )
-_MESH = {
-    "Nodes": Tag((), ("name",), {"node": Tag(("id",))}),
-    "Elements": Tag(("type", "name"), children={"elem": Tag(("id",))}),
-    "NodeSet": Tag(("name",)),
-    "ElementSet": Tag(("name",)),
-    "Surface": Tag(("name",), children=dict.fromkeys(NODES_OF_FACET, Tag(("id",)))),
-}
-_DOFS = {
-    "zero displacement": ("x_dof", "y_dof", "z_dof"),
-    "zero fluid velocity": ("wx_dof", "wy_dof", "wz_dof"),
-}
-_ON_SURFACES = {
-    "fluid pressure": ("pressure",),
-    "fluid resistance": ("R", "pressure_offset"),
-    "fluid RCR": ("R", "Rd", "capacitance", "pressure_offset", "initial_pressure", "Bernoulli"),
-}
-_LOADS = {
-    "fluid normal velocity": (
-        *("velocity", "prescribe_nodal_velocities", "parabolic", "prescribe_rim_pressure"),
-    ),
-    "fluid backflow stabilization": ("beta",),
-    "fluid tangential stabilization": ("beta",),
-    "fluid-FSI traction": (),
-}
-_CURVE = {**_texts("interpolate", "extend"), "points": Tag(children={"pt": _TEXT})}
-_RECORD = Tag(("data",), ("name", "file", "delim", "format", "comments", "node_set", "elem_set"))
-_OUTPUT = {
-    "plotfile": Tag(("type",), children={"var": Tag(("type",), ("surface",)), "compression": _TEXT}),
-    "logfile": Tag((), ("file",), {"node_data": _RECORD, "element_data": _RECORD}),
-}
-# A section that refers to another, to materials or the mesh, stands behind it.
-SECTIONS = {
-    "Module": Tag(("type",)),
-    "Control": Tag(children=_CONTROL),
-    "Globals": Tag(children={"Constants": Tag(children=_texts("T", "R", "P", "Fc"))}),
-    "Material": Tag(children={"material": _MATERIAL}),
-    "Mesh": Tag(children=_MESH),
-    "MeshDomains": Tag(children={"SolidDomain": Tag(("name", "mat"), ("type",))}),
-    "Boundary": Tag(
-        children={"bc": Tag(("type",), ("name", "node_set", "surface"), types={**_DOFS, **_ON_SURFACES})}
-    ),
-    "Loads": Tag(children={"surface_load": Tag(("type", "surface"), ("name",), types=_LOADS)}),
-    "LoadData": Tag(children={"load_controller": Tag(("id", "type"), ("name",), children=_CURVE)}),
-    "Output": Tag(children=_OUTPUT),
-}
-VERSION = "4.0"
+
+
+def nodes_of_element(kind: str) -> int | None:
+    """Give the number of nodes of a type of elements; None if FEBio has no such type."""
+    match = _ELEMENT.fullmatch(kind)
+    return next(int(digits) for digits in match.groups() if digits) if match else None

@@ -67,11 +67,6 @@ def tube_mesh(vessel: Vessel, size: MeshSize, frame: Frame) -> TubeMesh:
     ----------
     vessel, size, frame
         Sizes in m, numbers of elements, and where the artery lies.
-
-    Returns
-    -------
-    TubeMesh
-        The mesh.
     """
     section = cross_section(vessel, size)
     sweep = _Sweep(len(section.points), size.n_z)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -139,7 +140,11 @@ class DataRecord:
 
 
 def read_data_record(
-    path: str | PathLike[str], *, columns: tuple[str, ...] | None = None, repeats: Repeats = "last"
+    path: str | PathLike[str],
+    *,
+    columns: tuple[str, ...] | None = None,
+    repeats: Repeats = "last",
+    delimiter: str | None = None,
 ) -> DataRecord:
     """Read a data record from its separate file.
 
@@ -152,6 +157,8 @@ def read_data_record(
     repeats : {"last", "all"}, optional
         "last": where time goes back or stands still, as after a restart, only what was written last counts.
         "all": everything counts, e.g. for output at every iteration.
+    delimiter : str, optional
+        What separates the numbers (``delim=``), where it is not found: no part of a number.
 
     Returns
     -------
@@ -170,13 +177,18 @@ def read_data_record(
     whole, _, cut = text.rpartition("\n")
     if not looks_like_record(text[:4096]):
         raise FebioFileError(f"{path}: not an FEBio data record: it starts with {text[:20]!r}")
-    blocks = read_blocks(path, numbered_lines(whole))
+    if delimiter is not None and (not delimiter or set(delimiter) & set("0123456789.+-eE")):
+        raise FebioFormatError(
+            f"delimiter {delimiter!r}: allowed: a text that is no part of a number", path=path
+        )
+    blocks = read_blocks(path, numbered_lines(whole), delimiter)
     return make_record(path, blocks, cut=cut.strip(), columns=columns, repeats=repeats)
 
 
 def looks_like_record(start: str) -> bool:
     """Whether a text begins like a data record: with a header line, or an item's number and values."""
-    line = next((line.strip() for line in start.split("\n") if line.strip()), "")
+    lines = (line.strip() for line in start.split("\n"))
+    line = next((line for line in lines if line and not line.startswith("#")), "")
     if line.startswith("*"):
         return line[1:].lstrip()[:4] in ("Step", "Time", "Data", "Titl")
     return bool(line) and line[0] in "+-0123456789" and "\0" not in start
@@ -217,6 +229,7 @@ def make_record(
             )
     width = _width(path, blocks)
     name = next((block.name for block in blocks if block.name), "")
+    warnings += _doubts(path, blocks, name, width, columns)
     sizes = [len(block.items) for block in blocks]
     return DataRecord(
         path=path,
@@ -233,11 +246,32 @@ def make_record(
     )
 
 
+def _doubts(
+    path: Path, blocks: list[Block], name: str, width: int, columns: tuple[str, ...] | None
+) -> Iterator[str]:
+    """Say what may have been read otherwise than it was meant."""
+    if any(block.positional for block in blocks):
+        yield f"{path.name}: its lines have no item numbers; items are counted from 1 in each block"
+    if any(len(set(block.items)) < len(block.items) for block in blocks):
+        yield (
+            f"{path.name}: an item stands twice in a block: item numbers may be missing, "
+            "and the first column be a value"
+        )
+    names = name.split(";")
+    if columns is None and width and len(names) != width and (len(names) > 1 or unit_of(name) is not None):
+        yield (
+            f"{path.name}: {len(names)} names ({name[:80]}) but {width} values an item: "
+            "are there decimal commas?"
+        )
+
+
 def _complete(path: Path, blocks: list[Block], cut: str) -> tuple[list[Block], list[str]]:
     """Leave out a last block that is shorter than the others, or whose last line is incomplete."""
     others = {len(block.items) for block in blocks[:-1]}
     size = len(blocks[-1].items) if blocks else 0
-    short = bool(blocks) and (not size or (len(others) == 1 and size < min(others)))
+    short = bool(blocks) and (
+        not size or not blocks[-1].is_whole or (len(others) == 1 and size < min(others))
+    )
     in_it = bool(blocks and cut) and not cut.startswith("*") and others != {size}
     if short or in_it:
         return blocks[:-1], [f"{path.name} is cut off: its last block, which is incomplete, is left out"]
@@ -257,6 +291,8 @@ def _width(path: Path, blocks: list[Block]) -> int:
     filled = [block for block in blocks if block.items]
     widths = [len(block.values) // len(block.items) for block in filled]
     for block, width in zip(filled, widths, strict=True):
+        if not block.is_whole:
+            raise FebioFormatError(f"line {block.line}: a block whose last item lacks values", path=path)
         if width != widths[0]:
             raise FebioFormatError(
                 f"line {block.line}: a block with {width} values an item, after others with {widths[0]}",

@@ -1,5 +1,6 @@
 """FEBio's log files (.log)."""
 
+import re
 from os import PathLike
 from pathlib import Path
 
@@ -21,7 +22,12 @@ __all__ = [
 ]
 
 LOOKED_AT = 1 << 16
-SIGNS = ("F O R   B I O M E C H A N I C S", " FILES USED", "===== beginning time step")
+# The banner may stand in any text about FEBio: a log has a list of files, a time step, an ending or a box.
+SIGNS = re.compile(
+    r"^ FILES USED\s*$|^===== beginning time step \d|^ [NE] [OR] R [A-Z ]+ {3}T E R M I N A T I O N"
+    r"|F O R   B I O M E C H A N I C S[^*]{0,9999}^ \*{60,}",
+    re.MULTILINE,
+)
 
 
 def read_log(path: str | PathLike[str]) -> Log:
@@ -50,5 +56,5 @@ def read_log(path: str | PathLike[str]) -> Log:
 
 
 def looks_like_log(start: str) -> bool:
-    """Whether a text begins like a log: with FEBio's banner, its list of files or a time step."""
-    return any(sign in start for sign in SIGNS)
+    """Whether a text begins like a log, with what a run leaves there; FEBio's banner alone is none."""
+    return SIGNS.search(start) is not None

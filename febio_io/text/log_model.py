@@ -252,9 +252,10 @@ class Log:
         record = by_number[number]
         if record.file is not None:
             raise FebioKeyError(f"{self.path}: the values of data record {number} are in {record.file}")
-        blocks = []
+        blocks: list[Block] = []
         for header, lines in record.blocks:
             block = Block(header.line, header.step, header.time, header.name)
+            block.positional = blocks[-1].positional if blocks else None
             for line, text in lines:
                 add_row(self.path, block, line, text)
             blocks.append(block)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from febio_io.text.log_model import Input, Log, Message, MessageKind, Norm, Termination
 from febio_io.text.log_state import Attempt, State, end_iteration, log_of
-from febio_io.text.record_blocks import Block, numbered_lines
+from febio_io.text.record_blocks import Block, float_of, numbered_lines
 
 NUMBER = r"([-+]?(?:\d{1,30}\.?\d{0,30}|\.\d{1,30})(?:[eE][-+]?\d{1,5})?|[-+]?(?:nan|inf))"
 COUNT = r"(\d{1,15})"
@@ -18,6 +18,9 @@ SPACED_VERSION = re.compile(r"[\s-]*v e r s i o n[\s-]*(\d[\d .]*)")
 LEADERS = re.compile(r"\.\.\s*:")  # the end of the dots between a name and its value
 FILE_LINE = re.compile(r"\t(\w+ file)\s*:\s*(.*)")
 DURATION = re.compile(rf"\d+:\d\d:\d\d\s*\({NUMBER} sec\)")
+# What FEBio 1 and 2 tell instead, without seconds: the labels that their successors have.
+OLD_DURATION = re.compile(r"\s*(Time in (?:linear )?solver|Elapsed time)\s*: (\d{1,6}):(\d\d):(\d\d)\s*")
+OLD_LABELS = {"Elapsed time": "Total elapsed time"}
 MEMORY = re.compile(rf"\s*Peak memory\s*:\s*{NUMBER} MB")
 RECORD = re.compile(rf"Data Record #{COUNT}")
 RECORD_HEADER = re.compile(r"(Step|Time|Data|File) = ?(.*)")
@@ -31,7 +34,6 @@ COUNTS = {
     "step from line search": "line_search_step",
 }
 COUNT_LINE = re.compile(rf"\t({'|'.join(COUNTS)})\s*= {NUMBER}")
-ONE_NUMBER = re.compile(NUMBER)
 SUMMARY = re.compile(rf"\s*number of (iterations|reformations)\s*: {COUNT}")
 CONVERGED = re.compile(r"-+ converged at time :")
 FAILED = re.compile(r"-+ failed to converge at time :")
@@ -189,9 +191,10 @@ def _read_norm(state: State, line: str) -> bool:
     """Take in a norm: its name and three numbers, indented by a tab and blanks."""
     words = line.split()
     indented = line.startswith(("\t ", "\t\t"))
-    if not indented or len(words) < 4 or not all(ONE_NUMBER.fullmatch(word) for word in words[-3:]):
+    values = [value for word in words[-3:] if (value := float_of(word)) is not None]
+    if not indented or len(words) < 4 or len(values) < 3:
         return False
-    state.norms[" ".join(words[:-3])] = Norm(*map(float, words[-3:]))
+    state.norms[" ".join(words[:-3])] = Norm(*values)
     return True
 
 
@@ -206,6 +209,10 @@ def _read_end(state: State, _number: int, line: str) -> bool:
         state.termination = TERMINATIONS[letters]
     elif (pair := _named_value(line)) and (match := DURATION.fullmatch(pair[1])):
         state.timings[pair[0]] = float(match[1])
+    elif match := OLD_DURATION.fullmatch(line):
+        label = OLD_LABELS.get(match[1], "time in linear solver")
+        seconds = 3600.0 * int(match[2]) + 60.0 * int(match[3]) + int(match[4])
+        state.old_timings[label] = state.old_timings.get(label, 0.0) + seconds
     elif match := MEMORY.match(line):
         state.peak_memory = float(match[1])
     else:

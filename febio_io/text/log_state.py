@@ -51,6 +51,7 @@ class State:
     matrix: dict[str, int] = field(default_factory=dict)
     totals: list[dict[str, float]] = field(default_factory=list)
     timings: dict[str, float] = field(default_factory=dict)
+    old_timings: dict[str, float] = field(default_factory=dict)
     peak_memory: float | None = None
     termination: Termination = "none"
     records: dict[int, list[tuple[Block, list[tuple[int, str]]]]] = field(default_factory=dict)
@@ -99,7 +100,7 @@ def log_of(state: State, path: Path) -> Log:
         n_equations=state.matrix.get("n_equations"),
         n_nonzeros=state.matrix.get("n_nonzeros"),
         totals=tuple(state.totals),
-        timings=state.timings,
+        timings=state.timings or state.old_timings,
         peak_memory=state.peak_memory,
         termination=state.termination,
         records=tuple(_record(state, number) for number in state.records),

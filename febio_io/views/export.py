@@ -9,8 +9,7 @@ from cases.shell.interrupts import interrupts_deferred
 from febio_io.errors import FebioKeyError, nearest_first
 from febio_io.text.data_records import DataRecord
 from febio_io.text.log import Log
-from febio_io.views.file_names import safe_name
-from febio_io.views.staging import staged
+from febio_io.views.staging import safe_name, staged
 from febio_io.xplt import Plot
 
 Advance = Callable[[], None]
@@ -42,11 +41,6 @@ def export_plot(
         Numbers of states; all, unless given.
     advance : callable, optional
         Called whenever a state has been written.
-
-    Returns
-    -------
-    list of Path
-        The files.
 
     Raises
     ------

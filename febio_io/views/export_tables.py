@@ -12,7 +12,7 @@ from cases.arrays import Singles
 from febio_io.text.data_records import DataRecord
 from febio_io.text.log import Log
 from febio_io.views.arrays import ITEMS, SECTIONS, to_xarray
-from febio_io.views.file_names import safe_name
+from febio_io.views.staging import safe_name
 from febio_io.xplt import Mesh, Plot, Variable
 from febio_io.xplt.mesh import PADDING, Domain, Region
 from febio_io.xplt.whole import Quantity, quantities, regions_in, values_in

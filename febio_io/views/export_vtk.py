@@ -3,20 +3,16 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-from vtkmodules.vtkIOHDF import vtkHDFWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from cases.shell.interrupts import interrupts_told_to
 from febio_io.errors import FebioFileError, FebioKeyError
-from febio_io.views.file_names import safe_name
 from febio_io.views.grids import to_pyvista
+from febio_io.views.staging import safe_name
+from febio_io.views.vtk_times import write_over_time
 from febio_io.xplt import Plot, Variable
 from febio_io.xplt.dictionary import SectionName
 from febio_io.xplt.whole import quantities, regions_in, values_in
@@ -70,17 +66,8 @@ def write_vtkhdf(
         raise FebioKeyError(f"{plot.path}: no states to write")
     for part in _parts(plot, variables, states):
         path = folder / f"{part.name}.vtkhdf"
-        source = _StateSource(plot.times[part.states].tolist(), part, advance)
-        writer = vtkHDFWriter()
-        writer.SetInputConnection(source.GetOutputPort())
-        writer.SetFileName(str(path))
-        writer.SetWriteAllTimeSteps(True)
-        with interrupts_told_to(source.interrupt):  # VTK would swallow one where it calls back
-            done = writer.Write()
-        if source.failure is not None:
-            raise source.failure
-        if not done or not path.is_file():
-            raise FebioFileError(f"{path.name}: cannot be written")
+        times = plot.times[part.states].tolist()
+        write_over_time(path, "vtkUnstructuredGrid", times, part.mesh, advance)
 
 
 def check_times(plot: Plot, states: list[int]) -> None:
@@ -107,46 +94,9 @@ class _Part:
     states: list[int]
     grid: Grid
 
-
-class _StateSource(VTKPythonAlgorithmBase):
-    """A source in VTK's sense: makes the mesh of the time that is asked for."""
-
-    def __init__(self, times: list[float], part: _Part, advance: Advance) -> None:
-        super().__init__(  # type: ignore[no-untyped-call] # VTK's wrapping has no types
-            nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid"
-        )
-        self._states = dict(zip(times, part.states, strict=True))
-        self._grid, self._advance = part.grid, advance
-        self._made = part.grid(part.states[0])  # VTK's writer needs a mesh, whatever fails later
-        self.failure: BaseException | None = None
-
-    def interrupt(self, _signal: object) -> None:
-        """Make no more meshes: an interrupt is kept like any failure."""
-        self.failure = KeyboardInterrupt()
-
-    def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:
-        """Tell the times."""
-        times = list(self._states)
-        information = outputs.GetInformationObject(0)
-        information.Set(vtkStreamingDemandDrivenPipeline.TIME_STEPS(), times, len(times))
-        information.Set(vtkStreamingDemandDrivenPipeline.TIME_RANGE(), [times[0], times[-1]], 2)
-        return 1
-
-    def RequestData(self, _request: Any, _inputs: Any, outputs: Any) -> int:
-        """Make the mesh. VTK cannot pass on an exception: it is kept, and the last mesh comes again."""
-        key = vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
-        information = outputs.GetInformationObject(0)
-        time = information.Get(key) if information.Has(key) else next(iter(self._states))
-        output = self.GetOutputData(outputs, 0)  # type: ignore[no-untyped-call]
-        if self.failure is None:
-            try:
-                self._made = self._grid(self._states[time])
-                self._advance()
-            except BaseException as error:  # noqa: BLE001 - raised again when VTK has returned
-                self.failure = error
-        output.ShallowCopy(self._made)
-        output.GetInformation().Set(output.DATA_TIME_STEP(), time)
-        return 1
+    def mesh(self, place: int) -> pv.UnstructuredGrid:
+        """Make the mesh of one of its states, by its place among them."""
+        return self.grid(self.states[place])
 
 
 def _parts(plot: Plot, variables: tuple[Variable, ...], states: list[int]) -> list[_Part]:

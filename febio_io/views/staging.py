@@ -1,5 +1,6 @@
-"""Writing files so that each appears whole or not at all."""
+"""Files of an export: how they are called, and that each appears whole or not at all."""
 
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -22,11 +23,6 @@ def staged(folder: Path, written: list[Path]) -> Iterator[Path]:
     written : list of Path
         Takes in the files' paths. Those that tell of others (.pvd) are moved last.
 
-    Yields
-    ------
-    Path
-        The temporary folder.
-
     Raises
     ------
     FebioFileError
@@ -46,3 +42,14 @@ def staged(folder: Path, written: list[Path]) -> Iterator[Path]:
     finally:
         if made and not written and folder.is_dir():
             folder.rmdir()
+
+
+def safe_name(name: str) -> str:
+    """Replace what not every file system takes by underscores.
+
+    Returns
+    -------
+    str
+        Letters, digits, dots, dashes and underscores; not empty, and neither dot nor underscore at an end.
+    """
+    return re.sub(r"[^\w.-]+", "_", name).strip("._") or "unnamed"

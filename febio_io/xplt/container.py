@@ -58,6 +58,10 @@ class Source:
             message, path=self.path, offset=offset, tag=tag, stream_offset=self.stream_offset
         )
 
+    def error_in(self, chunk: Chunk, message: str) -> FebioFormatError:
+        """Make the error that names a chunk of this source."""
+        return self.error(message, chunk.start, chunk.tag)
+
     def array(self, chunk: Chunk, dtype: DTypeLike) -> NDArray[Any]:
         """View a payload as items of one type, given without byte order.
 
@@ -68,10 +72,8 @@ class Source:
         """
         item = np.dtype(dtype).newbyteorder(self.order)
         if chunk.size % item.itemsize:
-            raise self.error(
-                f"{chunk.size} bytes are not a whole number of {item.itemsize}-byte items",
-                chunk.start,
-                chunk.tag,
+            raise self.error_in(
+                chunk, f"{chunk.size} bytes are not a whole number of {item.itemsize}-byte items"
             )
         return np.frombuffer(self.data, item, chunk.size // item.itemsize, chunk.start)
 
@@ -159,7 +161,7 @@ def children_by_tag(source: Source, parent: Chunk) -> dict[int, Chunk]:
     found: dict[int, Chunk] = {}
     for child in children(source, parent):
         if child.tag in found:
-            raise source.error("the chunk occurs twice in one branch", child.start, child.tag)
+            raise source.error_in(child, "the chunk occurs twice in one branch")
         found[child.tag] = child
     return found
 
@@ -173,5 +175,5 @@ def required(source: Source, parent: Chunk, found: dict[int, Chunk], tag: Tag) -
         If the parent has no such child.
     """
     if tag not in found:
-        raise source.error(f"{tag.name} ({tag:#010x}) is missing", parent.start, parent.tag)
+        raise source.error_in(parent, f"{tag.name} ({tag:#010x}) is missing")
     return found[tag]

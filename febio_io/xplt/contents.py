@@ -55,11 +55,6 @@ def read_contents(source: Source, root: Root, keep_inflated: int) -> Contents:
     keep_inflated : int
         Bytes of inflated sections that may be kept.
 
-    Returns
-    -------
-    Contents
-        The list.
-
     Raises
     ------
     FebioFormatError

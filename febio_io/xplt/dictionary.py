@@ -102,13 +102,6 @@ class Variable:
 def read_dictionary(source: Source, dictionary: Chunk) -> tuple[Variable, ...]:
     """Read the dictionary.
 
-    Parameters
-    ----------
-    source : Source
-        The file.
-    dictionary : Chunk
-        The dictionary's chunk.
-
     Returns
     -------
     tuple of Variable

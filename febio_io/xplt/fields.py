@@ -120,15 +120,6 @@ def block_shape(variable: Variable, mesh: Mesh, region: Region | None) -> tuple[
 def find_blocks(state: StateData, variable: Variable, mesh: Mesh) -> dict[int, Chunk]:
     """Find a variable's blocks of values and check their sizes.
 
-    Parameters
-    ----------
-    state : StateData
-        The state.
-    variable : Variable
-        The variable.
-    mesh : Mesh
-        The state's mesh.
-
     Returns
     -------
     dict of int to Chunk
@@ -218,9 +209,8 @@ def read_active_elements(state: StateData, mesh: Mesh) -> Flags:
     chunk = flags[Tag.ELEMENT_STATE]
     values = state.source.array(chunk, "u4")
     if len(values) != mesh.n_elements:
-        raise state.source.error(
+        raise state.source.error_in(
+            chunk,
             f"flags of {len(values)} elements in state {state.number}, whose mesh has {mesh.n_elements}",
-            chunk.start,
-            chunk.tag,
         )
     return (values & 1).astype(bool)

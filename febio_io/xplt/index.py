@@ -178,9 +178,9 @@ def _state_head(source: Source, state: Chunk) -> bytes:
     for child in children(source, state):
         if child.tag == Tag.STATE_HEADER:
             if child.size > LARGEST_STATE_HEADER:
-                raise source.error(f"a state header of {child.size} bytes", child.start, child.tag)
+                raise source.error_in(child, f"a state header of {child.size} bytes")
             return source.data[child.start : child.end]
-    raise source.error("a state without a header", state.start, state.tag)
+    raise source.error_in(state, "a state without a header")
 
 
 def _read_compressed(

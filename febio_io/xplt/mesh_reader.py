@@ -66,20 +66,6 @@ _EDGE = _ItemTags(
 def read_mesh(source: Source, mesh: Chunk, version: int) -> Mesh:
     """Read a mesh.
 
-    Parameters
-    ----------
-    source : Source
-        The file, or the inflated mesh.
-    mesh : Chunk
-        The mesh's chunk.
-    version : int
-        Version of the file.
-
-    Returns
-    -------
-    Mesh
-        The mesh.
-
     Raises
     ------
     FebioFormatError
@@ -120,7 +106,7 @@ def read_mesh(source: Source, mesh: Chunk, version: int) -> Mesh:
 def _distinct(source: Source, mesh: Chunk, regions: Iterator[R]) -> tuple[R, ...]:
     found = tuple(regions)
     if len({region.region for region in found}) != len(found):
-        raise source.error("two surfaces, or two edges, have the same number", mesh.start, mesh.tag)
+        raise source.error_in(mesh, "two surfaces, or two edges, have the same number")
     return found
 
 
@@ -129,7 +115,7 @@ def _read_nodes(source: Source, section: Chunk, version: int) -> tuple[Integers,
     header = required(source, section, parts, Tag.NODE_HEADER)
     sizes = children_by_tag(source, header)
     if Tag.NODE_DIM in sizes and (dimensions := source.integer(sizes[Tag.NODE_DIM])) != 3:
-        raise source.error(f"nodes of {dimensions} dimensions; 3 are known", header.start, header.tag)
+        raise source.error_in(header, f"nodes of {dimensions} dimensions; 3 are known")
     coordinates = required(source, section, parts, Tag.NODE_COORDS)
     records = source.array(coordinates, NODE_RECORD)
     _check_count(
@@ -181,10 +167,8 @@ def _read_domain(
 def _element_type(source: Source, chunk: Chunk, region: int) -> ElementType:
     code = source.integer(chunk)
     if code not in ELEMENT_TYPES:
-        raise source.error(
-            f"domain {region} has element type {code}; 0 to {max(ELEMENT_TYPES)} are known",
-            chunk.start,
-            chunk.tag,
+        raise source.error_in(
+            chunk, f"domain {region} has element type {code}; 0 to {max(ELEMENT_TYPES)} are known"
         )
     return ELEMENT_TYPES[code]
 
@@ -212,14 +196,14 @@ def _read_items(source: Source, parent: Chunk, n_nodes: int, tags: _ItemTags) ->
     name = source.counted_text(entries[tags.name]) if tags.name in entries else ""
     width = source.integer(required(source, header, entries, tags.width))
     if not 0 <= width <= LARGEST_FACE:
-        raise source.error(f"{name!r} with up to {width} nodes a face or line", header.start, header.tag)
+        raise source.error_in(header, f"{name!r} with up to {width} nodes a face or line")
     items = found.get(tags.list, Chunk(tags.list, parent.end, 0))
     table = _equal_chunks(source, items, tags.item, 2 + width)
     declared = source.integer(required(source, header, entries, tags.count))
     _check_count(source, items, f"faces or lines of {name!r}", declared, len(table))
     counts, nodes = table[:, 1], table[:, 2:]
     if not ((counts >= 1) & (counts <= width)).all():
-        raise source.error(f"{name!r} has a face or line without 1 to {width} nodes", items.start, items.tag)
+        raise source.error_in(items, f"{name!r} has a face or line without 1 to {width} nodes")
     used = np.arange(width) < counts[:, np.newaxis]
     _check_nodes(source, items, nodes[used], n_nodes)
     nodes[~used] = PADDING  # the file has uninitialised numbers there
@@ -262,23 +246,21 @@ def _equal_chunks(source: Source, parent: Chunk, tag: Tag, columns: int) -> Inte
     """Read a list of chunks of one tag and size as one table (n_chunks, columns)."""
     table = source.array(parent, "i4")
     if table.size % (2 + columns):
-        raise source.error(
-            f"{parent.size} bytes are not a whole number of {tag.name}s of {columns} numbers",
-            parent.start,
-            parent.tag,
+        raise source.error_in(
+            parent, f"{parent.size} bytes are not a whole number of {tag.name}s of {columns} numbers"
         )
     table = table.reshape(-1, 2 + columns)
     if not ((table[:, 0] == tag) & (table[:, 1] == 4 * columns)).all():
-        raise source.error(f"not all are {tag.name}s of {columns} numbers", parent.start, parent.tag)
+        raise source.error_in(parent, f"not all are {tag.name}s of {columns} numbers")
     return table[:, 2:].astype(np.int64)
 
 
 def _check_count(source: Source, chunk: Chunk, what: str, declared: int, found: int) -> None:
     if declared != found:
-        raise source.error(f"{declared} {what} declared, {found} found", chunk.start, chunk.tag)
+        raise source.error_in(chunk, f"{declared} {what} declared, {found} found")
 
 
 def _check_nodes(source: Source, chunk: Chunk, nodes: Integers, n_nodes: int) -> None:
     if nodes.size and not 0 <= nodes.min() <= nodes.max() < n_nodes:
         wrong = nodes.min() if nodes.min() < 0 else nodes.max()
-        raise source.error(f"node {wrong} of a mesh with {n_nodes} nodes", chunk.start, chunk.tag)
+        raise source.error_in(chunk, f"node {wrong} of a mesh with {n_nodes} nodes")

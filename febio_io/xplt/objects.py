@@ -84,7 +84,7 @@ def read_objects(source: Source, section: Chunk) -> tuple[ModelObject, ...]:
             item = _read_object(source, chunk)
             key = (item.kind, item.object_id)
             if key in found:
-                raise source.error(f"two {key[0]} objects have the number {key[1]}", chunk.start, chunk.tag)
+                raise source.error_in(chunk, f"two {key[0]} objects have the number {key[1]}")
             found[key] = item
     return tuple(found.values())
 
@@ -127,19 +127,18 @@ def _read_state(
     parts, data = _split(source, chunk)
     key = (KINDS[chunk.tag], source.integer(required(source, chunk, parts, Tag.OBJECT_ID)))
     if key not in known:
-        raise source.error(f"the mesh has no {key[0]} object {key[1]}", chunk.start, chunk.tag)
+        raise source.error_in(chunk, f"the mesh has no {key[0]} object {key[1]}")
     item = known[key]
     values = {}
     for block in (block for branch in data for block in children(source, branch)):
         if not block.tag < len(item.variables):
-            raise source.error(f"object {item.name!r} has no variable {block.tag}", block.start, block.tag)
+            raise source.error_in(block, f"object {item.name!r} has no variable {block.tag}")
         variable = item.variables[block.tag]
         if variable.n_components is None or block.size != 4 * variable.n_components:
-            raise source.error(
+            raise source.error_in(
+                block,
                 f"{block.size} bytes for {variable.name!r} of object {item.name!r}, "
                 f"which is of type {variable.value_type}",
-                block.start,
-                block.tag,
             )
         numbers = source.array(block, "f4").astype(np.float32)
         values[variable.name] = numbers.reshape(()) if variable.is_scalar else numbers
@@ -169,7 +168,7 @@ def _place(source: Source, chunk: Chunk, parts: dict[int, Chunk]) -> tuple[Float
 
 def _numbers(source: Source, chunk: Chunk, count: int) -> Floats:
     if chunk.size != 4 * count:
-        raise source.error(f"{count} numbers expected, {chunk.size} bytes found", chunk.start, chunk.tag)
+        raise source.error_in(chunk, f"{count} numbers expected, {chunk.size} bytes found")
     return source.array(chunk, "f4").astype(np.float64)
 
 

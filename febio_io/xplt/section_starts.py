@@ -19,11 +19,6 @@ FIRST_CHILD = {Tag.STATE: Tag.STATE_HEADER, Tag.MESH: Tag.NODE_SECTION}
 def start_finder(source: Source) -> Callable[[int], int | None]:
     """Give a function that finds where the section after a compressed one begins.
 
-    Parameters
-    ----------
-    source : Source
-        The file.
-
     Returns
     -------
     callable

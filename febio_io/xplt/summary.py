@@ -14,11 +14,6 @@ Summary = dict[str, Any]
 def summarize(plot: Plot) -> Summary:
     """Describe a plot file in values that JSON can hold.
 
-    Parameters
-    ----------
-    plot : Plot
-        The open file.
-
     Returns
     -------
     dict

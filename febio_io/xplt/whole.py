@@ -48,11 +48,6 @@ def quantities(
         The sections.
     taken : tuple of str, optional
         Labels that are not free.
-
-    Returns
-    -------
-    tuple of Quantity
-        The groups, with distinct labels.
     """
     groups: dict[tuple[object, ...], list[Variable]] = {}
     for variable in variables:

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib import style
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -76,7 +75,6 @@ def small_multiples(
         ]
         total = _TOP + _BOTTOM + sum(heights) + _ROW_GAP * (len(heights) - 1)
         figure = Figure(figsize=(WIDTH, total))
-        FigureCanvasSVG(figure)
         axes = _axes(figure, heights, layout, total)
         _legend(figure, rows, bool(marks), names)
         for left, title in zip(layout.lefts, columns, strict=True):

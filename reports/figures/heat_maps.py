@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib import colormaps, style
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
@@ -82,7 +81,6 @@ def heat_maps(
         height = _HEIGHT if len(rows) < _MANY else _HEIGHT_OF_MANY
         total = _TOP + _BOTTOM + height * len(rows) + _ROW_GAP * (len(rows) - 1)
         figure = Figure(figsize=(WIDTH, total))
-        FigureCanvasSVG(figure)
         edges = (edges_of(x), edges_of(phi))
         outline = cell_borders(*edges, calcified)
         for number, row in enumerate(rows):

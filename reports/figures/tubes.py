@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 from matplotlib import colormaps, style
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -75,7 +74,6 @@ def tubes(
     with style.context(STYLE):
         total = _TOP + _BOTTOM + _HEIGHT * len(rows)
         figure = Figure(figsize=(WIDTH, total))
-        FigureCanvasSVG(figure)
         width = (WIDTH - _LEFT - _RIGHT) / len(columns)
         view = _view(seen_from)
         most = max(float(tube.drawn.max()) for _, line in rows for tube in line)

@@ -45,11 +45,6 @@ def helper() -> Iterator[Helper | None]:
 def draw(drawings: Mapping[str, Drawing], second: Helper | None) -> dict[str, str]:
     """Make all drawings, every other one by the second process if there is one.
 
-    Returns
-    -------
-    dict of str to str
-        The SVG of each.
-
     Raises
     ------
     RuntimeError

@@ -6,14 +6,14 @@ from pathlib import Path
 
 from pydantic import TypeAdapter
 
-from cases.results.metric_row import MetricRow, Model, judged
+from cases.results.metric_row import Inflow, MetricRow, Model, judged
 from reports.errors import ReportError
 from reports.result.strict_json import read_json
 
 
 @dataclass(frozen=True)
 class Metrics:
-    """All rows, and those without a band by (variant, quantity, statistic, i, j, t)."""
+    """All rows, and those without a band by (variant, quantity, statistic, i, j, t, inflow)."""
 
     rows: tuple[MetricRow, ...]
     index: dict[tuple[object, ...], MetricRow]
@@ -30,9 +30,10 @@ class Metrics:
         i: int | None = None,
         j: int | None = None,
         t_s: float | None = None,
+        inflow: Inflow = "",
     ) -> MetricRow | None:
         """Return the one row about this, or None where the comparison has none."""
-        return self.index.get((variant, quantity, statistic, i, j, _instant(t_s)))
+        return self.index.get((variant, quantity, statistic, i, j, _instant(t_s), inflow))
 
     def largest_row(self, variant: str, quantity: str, model: Model) -> MetricRow | None:
         """Return the row of a model's largest value, which may name the cell where it was found."""
@@ -56,7 +57,7 @@ class Metrics:
         """Rows of a statistic over all cells and states (a maximum names where it was found)."""
         for row in self.rows:
             whole = row.t_s is not None if statistic.startswith("max_") else row.i is None
-            if row.statistic == statistic and whole and not row.status:
+            if row.statistic == statistic and whole and not row.status and not row.inflow:
                 yield row
 
 
@@ -83,7 +84,9 @@ def read_metrics(path: Path) -> Metrics:
                 f"{row.status!r}, but an error of {row.error} with a band of {row.band} gives {verdict!r}"
             )
     index: dict[tuple[object, ...], MetricRow] = {
-        (r.variant, r.quantity, r.statistic, r.i, r.j, _instant(r.t_s)): r for r in rows if not r.status
+        (r.variant, r.quantity, r.statistic, r.i, r.j, _instant(r.t_s), r.inflow): r
+        for r in rows
+        if not r.status
     }
     return Metrics(rows, index)
 

@@ -10,7 +10,7 @@ from cases.results.metric_row import MetricRow
 from reports.blocks import Block, Column, Paragraph, Subsection, Table
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
-from reports.sections.parts import change_apart
+from reports.sections.parts import pooled
 from reports.sections.parts.cells import cell_tables
 from reports.wording.numbers import (
     DIFFERENCE_UNITS,
@@ -264,7 +264,7 @@ def section(comparison: Comparison) -> Blocks:
         blocks.append(
             Paragraph(f"Times are counted from the start of the cycle and are those of 3D states: {times}.")
         )
-    apart = change_apart.table(comparison, comparison.changed) if comparison.changed else None
+    apart = pooled.change_apart(comparison, comparison.changed) if comparison.changed else None
     if apart:
         blocks.append(apart)
     cycle = _cycle_table(comparison)

@@ -9,12 +9,11 @@ import xarray as xr
 from cases.arrays import Floats
 from reports.blocks import Figure, Interactive, Paragraph, Subsection
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
-from reports.html.packed import pack
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.parts import error_curves
 from reports.sections.parts.lumen import cells_csv, centres, field, outlined
-from reports.sections.parts.page_data import digits
+from reports.sections.parts.page_data import digits, pack
 from reports.sections.parts.stated import mostly, stated_variants
 from reports.wording.numbers import SPACE, listed, percent, span, unsigned
 from reports.wording.words import spot, top_to_bottom

@@ -4,6 +4,7 @@ from reports.sections import (
     ablation,
     artery,
     assumptions,
+    budget,
     change,
     cycle,
     dominance,
@@ -17,6 +18,7 @@ from reports.sections.declaration import Declared
 
 SECTIONS: list[Declared] = [
     verdict.section,
+    budget.section,
     change.section,
     cycle.section,
     velocity.section,

@@ -41,14 +41,15 @@ def _key(name: str) -> str:
     return (f"{name[:-2]} (s)" if name.endswith("_s") else name).replace("_", " ")
 
 
-def _pairs(key: str, caption: str, headings: tuple[str, str], pairs: Mapping[str, object]) -> Table:
-    rows = tuple((_key(name), _word(value)) for name, value in pairs.items())
+def pairs(key: str, caption: str, headings: tuple[str, str], facts: Mapping[str, object]) -> Table:
+    """Table of named facts, a row each."""
+    rows = tuple((_key(name), _word(value)) for name, value in facts.items())
     return Table(key, caption, (Column(headings[0]), Column(headings[1], "prose")), rows)
 
 
 def _run(comparison: Comparison) -> Table:
     p = comparison.provenance
-    return _pairs(
+    return pairs(
         "run",
         "The run that this report draws.",
         ("what", "value"),
@@ -110,7 +111,7 @@ def section(comparison: Comparison) -> Blocks:
     blocks += [table for table in (records_table(comparison), cost_table(comparison)) if table]
     if p.wall_times_s:
         blocks.append(
-            _pairs(
+            pairs(
                 "wall-times",
                 "Wall-clock times of this run; what comes from the cache takes as long as reading it.",
                 ("step", "seconds"),
@@ -118,7 +119,7 @@ def section(comparison: Comparison) -> Blocks:
             )
         )
     blocks.append(_inputs(comparison))
-    blocks.append(_pairs("versions", "Versions of the libraries.", ("package", "version"), p.versions))
+    blocks.append(pairs("versions", "Versions of the libraries.", ("package", "version"), p.versions))
     if p.notes:
         blocks.append(Paragraph(f"{counted(len(p.notes), 'note')} of the run, warnings and assumptions:"))
         blocks.append(Bullets(p.notes))

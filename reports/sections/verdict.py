@@ -3,11 +3,11 @@
 from collections import Counter
 
 from cases.results.metric_row import MetricRow, Status
-from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings
+from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings, numbers, prose
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
-from reports.sections.parts import metric_rows, pooled, trust
-from reports.wording.numbers import ABSENT, counted, listed, rounded
+from reports.sections.parts import error_budget, page_data, pooled, trust
+from reports.wording.numbers import ABSENT, counted, listed, rounded, share
 from reports.wording.words import limit, measure, place, quantity_words, statistic_words
 
 _ORDER = {"FAIL": 0, "MISSING": 1, "OK": 2}
@@ -23,15 +23,24 @@ def headline(comparison: Comparison) -> str:
     bands = comparison.metrics.bands()
     if not bands:
         return "The case declares no band, so nothing is judged: the figures below are measured, not graded."
-    counts = [(name, Counter(r.status for r in bands if r.variant == name)) for name in comparison.variants]
+    judged = [row for row in bands if not trust.not_periodic(comparison, row.variant)]
+    counts = [(name, Counter(r.status for r in judged if r.variant == name)) for name in comparison.variants]
     parts = [f"{name}: {_tally(count)}" for name, count in counts if count]
-    total = Counter(r.status for r in bands)
+    parts += [f"{name}: 3D is not periodic" for name in _unsettled(comparison)]
+    if not judged:
+        return f"Nothing is judged ({'; '.join(parts)})."
+    total = Counter(r.status for r in judged)
     opening = (
-        f"All {len(bands)} bands hold"
-        if total["OK"] == len(bands) > 1
-        else f"{total['OK']} of {counted(len(bands), 'band')} {'holds' if total['OK'] == 1 else 'hold'}"
+        f"All {len(judged)} bands hold"
+        if total["OK"] == len(judged) > 1
+        else f"{total['OK']} of {counted(len(judged), 'band')} {'holds' if total['OK'] == 1 else 'hold'}"
     )
     return f"{opening} ({'; '.join(parts)})."
+
+
+def _unsettled(comparison: Comparison) -> list[str]:
+    """Variants whose 3D changes too much over a cycle for a verdict on the 2D model."""
+    return [name for name in comparison.variants if trust.not_periodic(comparison, name)]
 
 
 def _tally(count: Counter[Status]) -> str:
@@ -43,7 +52,12 @@ def _tally(count: Counter[Status]) -> str:
 
 def worst(comparison: Comparison) -> str:
     """Name the band furthest beyond its limit, or nearest to it, with its numbers."""
-    judged = [r for r in comparison.metrics.bands() if r.error is not None and r.band is not None]
+    unsettled = _unsettled(comparison)
+    judged = [
+        row
+        for row in comparison.metrics.bands()
+        if row.error is not None and row.band is not None and row.variant not in unsettled
+    ]
     if not judged:
         return ""
     row = max(judged, key=lambda r: r.ratio)
@@ -60,6 +74,13 @@ def by_variant(comparison: Comparison) -> tuple[str, ...]:
     """Say for each variant whether its bands hold, and by how much the furthest is missed or held."""
     said = []
     for name in comparison.variants:
+        if trust.not_periodic(comparison, name):
+            change = share(trust.cycle_change(comparison, name))
+            said.append(
+                f"{name}: 3D is not periodic (it changes by {change} over a cycle), so that its difference "
+                "from 2D is no model error."
+            )
+            continue
         bands = [row for row in comparison.metrics.bands() if row.variant == name]
         judged = [row for row in bands if row.error is not None]
         failed = [row for row in worst_first(tuple(judged)) if row.status == "FAIL"]
@@ -68,15 +89,25 @@ def by_variant(comparison: Comparison) -> tuple[str, ...]:
             said.append(f"{name}: no band was declared, so nothing is judged.")
             continue
         if failed:
-            text = "the 2D model is not within what was declared: " + "; ".join(map(_against_limit, failed))
+            text = "the 2D model is not within what was declared: " + "; ".join(
+                _with_budget(comparison, row) for row in failed
+            )
         elif judged:
             nearest = max(judged, key=lambda row: row.ratio)
-            text = f"the 2D model is within every judged limit; nearest is {_against_limit(nearest)}"
+            text = (
+                f"the 2D model is within every judged limit; nearest is {_with_budget(comparison, nearest)}"
+            )
         else:
             text = "nothing can be said"
         unjudged = f"; {counted(missing, 'band')} could not be judged" if missing else ""
         said.append(f"{name}: {text}{unjudged}.")
     return tuple(said)
+
+
+def _with_budget(comparison: Comparison, row: MetricRow) -> str:
+    """Write an error against its limit, and behind it whose error it is."""
+    owed = error_budget.of_band(comparison, row)
+    return _against_limit(row) + (f" ({owed})" if owed else "")
 
 
 def _against_limit(row: MetricRow) -> str:
@@ -98,22 +129,34 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
         said.append(
             "The reference states values at some cells and instants only; elsewhere, nothing is compared."
         )
-    said.append(
-        "Each 3D reference is one run on one mesh: how far its values are from those of a finer mesh is not "
-        "measured here, so a difference smaller than that error says nothing about the 2D model."
-    )
+    single = [
+        name
+        for name in comparison.variants
+        if all(found["mesh"] is None for found in error_budget.budgets(comparison, name))
+    ]
+    if single:
+        said.append(
+            f"The 3D reference of {listed(single)} is one run on one mesh: how far its values are from those "
+            "of a finer mesh is not measured here, so a difference smaller than that error says nothing "
+            "about the 2D model."
+        )
     variants = comparison.provenance.variants
     uncovered = [name for name in comparison.variants if variants[name].reference.coverage is None]
     if uncovered:
         said.append(f"How much of the cycle the 3D states of {listed(uncovered)} cover was not recorded.")
-    said.append("Of 3D one cycle is compared; whether 3D had become periodic by then is not measured here.")
+    unmeasured = [name for name in comparison.variants if variants[name].reference.cycle_change is None]
+    if unmeasured:
+        said.append(
+            "Of 3D one cycle is compared; whether 3D had become periodic by then is not measured in "
+            f"{listed(unmeasured)}: no two of its states are a cycle apart."
+        )
     unrated = [name for name in comparison.variants if variants[name].rom.cycle_change is None]
     if unrated:
         said.append(f"Whether the 2D model of {listed(unrated)} had become periodic was not recorded.")
-    single = [name for name in comparison.variants if variants[name].rom.cycles == 1]
-    if single:
+    once = [name for name in comparison.variants if variants[name].rom.cycles == 1]
+    if once:
         said.append(
-            f"The 2D model ran a single cycle for {listed(single)}: whether it had become periodic is not "
+            f"The 2D model ran a single cycle for {listed(once)}: whether it had become periodic is not "
             "known."
         )
     return tuple(said)
@@ -158,11 +201,8 @@ def _band_table(comparison: Comparison) -> Table:
         (
             Column("variant"),
             Column("verdict", "status"),
-            Column("quantity", "prose"),
-            Column("statistic", "prose"),
-            Column("error", "number"),
-            Column("limit", "number"),
-            Column("of limit", "number"),
+            *prose("quantity", "statistic"),
+            *numbers("error", "limit", "of limit"),
             Column("reason for the limit", "prose"),
         ),
         rows,
@@ -205,7 +245,7 @@ def section(comparison: Comparison) -> Blocks:
             "Every figure of this comparison",
             "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
             "click on a heading sorts.",
-            {"metrics": metric_rows.columns(comparison.metrics)},
+            {"metrics": page_data.metric_columns(comparison.metrics)},
         )
     )
     return tuple(blocks)

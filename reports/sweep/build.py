@@ -1,19 +1,22 @@
 """The page of a sweep, written beside its samples."""
 
-from collections import Counter
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+import pandas as pd
+
+from cases.results.sweep import KeptOutput, VariedParameter
 from reports.blocks import Report
 from reports.figures.two_processes import draw
-from reports.gallery import RANKS, Entry
+from reports.html.gallery import Entry, summed_up
 from reports.pages import rendered, write_pages
-from reports.sweep.amounts import DESIGNS
-from reports.sweep.folder import STUDY, Sweep, load_sweep
+from reports.sweep.amounts import DESIGNS, is_error
+from reports.sweep.folder import OK, STUDY, Sweep, load_sweep, shown
 from reports.sweep.held import all_held, sentence
 from reports.sweep.indices import indices_section
-from reports.sweep.page_data import page_data
 from reports.sweep.provenance import failures_section, provenance_section
-from reports.sweep.responses import held_section, responses_section
+from reports.sweep.responses import held_section, logarithmic, responses_section
 from reports.sweep.verdict import headline, status, verdict_section
 from reports.wording.numbers import counted, listed
 
@@ -33,11 +36,6 @@ def write_sweep_page(directory: Path) -> tuple[Path, Path]:
     directory : Path
         Holds study.json and samples/.
 
-    Returns
-    -------
-    tuple of Path
-        index.html and index.pdf.
-
     Raises
     ------
     ReportError
@@ -55,24 +53,9 @@ def write_sweep_entry(directory: Path) -> Entry:
     html, pdf = rendered(content, drawings)
     write_pages({directory / HTML: html, directory / PDF: pdf})
     bands = all_held(sweep)
-    counts = Counter(str(status(found)) for found in bands)
-    picture = next((figure for figure in content.figures() if figure.key.startswith("held-")), None)
-    return Entry(
-        directory,
-        content.title,
-        content.identity,
-        headline(sweep, bands),
-        tuple(sentence(found, sweep.study.parameters) for found in bands),
-        tuple((word, counts[word]) for word in RANKS if counts[word]),
-        (
-            min((RANKS[status(found)] for found in bands), default=len(RANKS)),
-            -max((found.furthest for found in bands), default=0.0),
-        ),
-        drawings[picture.key] if picture else "",
-        picture.alt if picture else "",
-        HTML,
-        PDF,
-    )
+    said = (headline(sweep, bands), tuple(sentence(found, sweep.study.parameters) for found in bands))
+    judged = ([status(found) for found in bands], [found.furthest for found in bands])
+    return summed_up(directory, content, drawings, said, judged, "held-", (HTML, PDF))
 
 
 def sweep_report(sweep: Sweep) -> Report:
@@ -98,3 +81,37 @@ def sweep_report(sweep: Sweep) -> Report:
         ),
         data=page_data(sweep),
     )
+
+
+MOST_SAMPLES = 5000  # points that a browser still moves at ease
+
+
+def page_data(sweep: Sweep) -> dict[str, Any]:
+    """Return JSON values for the page's scripts: display units, every n-th sample of a very large sweep."""
+    done = sweep.samples[sweep.samples["status"] == OK]
+    done = done.iloc[:: -(-len(done) // MOST_SAMPLES) or 1]
+    judged = [k for k, output in enumerate(sweep.study.outputs) if output.band]
+    errors = [k for k, output in enumerate(sweep.study.outputs) if is_error(output)]
+    return {
+        "variants": sweep.variants,
+        "variant": [sweep.variants.index(name) for name in done["variant"]],
+        "sample": [int(number) for number in done["sample"]],
+        "start": next(iter((*judged, *errors)), 0),
+        "parameters": [
+            {**_column(p, done), "logarithmic": logarithmic(p, done)} for p in sweep.study.parameters
+        ],
+        "outputs": [
+            {**_column(o, done), "limits": [_limit(sweep, variant, o) for variant in sweep.variants]}
+            for o in sweep.study.outputs
+        ],
+    }
+
+
+def _column(item: VariedParameter | KeptOutput, samples: pd.DataFrame) -> dict[str, object]:
+    values = [float(f"{value:.6g}") if np.isfinite(value) else None for value in shown(item, samples)]
+    return {"label": item.label, "unit": item.unit, "values": values}
+
+
+def _limit(sweep: Sweep, variant: str, output: KeptOutput) -> float | None:
+    band = sweep.band(variant, output)
+    return None if band is None else float(f"{band.limit * output.display_factor:.6g}")

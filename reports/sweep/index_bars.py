@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import style
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -37,7 +36,6 @@ def index_bars(names: Sequence[str], panels: Sequence[Bars]) -> str:
         gap, left, row_gap = 0.25, 1.75, 0.55
         total = 0.62 + 0.40 + lines * height + (lines - 1) * row_gap
         figure = Figure(figsize=(WIDTH, total))
-        FigureCanvasSVG(figure)
         width = (WIDTH - left - 0.1 - gap * (across - 1)) / across
         places = np.arange(len(names), dtype=float)
         for number, panel in enumerate(panels):

@@ -6,7 +6,7 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.results.sweep import KeptOutput, SobolIndex
-from reports.blocks import Block, Column, Figure, Paragraph, Section, Subsection, Table
+from reports.blocks import Block, Figure, Paragraph, Section, Subsection, Table, numbers, prose
 from reports.sweep.folder import Sweep
 from reports.sweep.index_bars import Bars, index_bars
 from reports.wording.csv_text import comma_separated
@@ -87,14 +87,7 @@ def _table(sweep: Sweep, key: str, shown: list[tuple[KeptOutput, list[SobolIndex
     return Table(
         key,
         "Sobol indices, each with half the width of its 95 % interval.",
-        (
-            Column("output", "prose"),
-            Column("parameter", "prose"),
-            Column("S1", "number"),
-            Column("interval", "number"),
-            Column("ST", "number"),
-            Column("interval", "number"),
-        ),
+        (*prose("output", "parameter"), *numbers("S1", "interval", "ST", "interval")),
         tuple(
             (output.label, labels[row.parameter], *pair(row.S1, row.S1_conf), *pair(row.ST, row.ST_conf))
             for output, rows in shown

@@ -3,7 +3,8 @@
 import numpy as np
 
 from cases.results.sweep import KeptOutput, VariedParameter
-from reports.blocks import Block, Column, Listing, Paragraph, Section, Table
+from reports.blocks import Block, Column, Listing, Paragraph, Section, Table, numbers, prose
+from reports.sections.provenance import pairs
 from reports.sweep.amounts import DESIGNS, amount, is_error
 from reports.sweep.folder import FAILED, Sweep
 from reports.wording.numbers import ABSENT, listed, rounded
@@ -56,8 +57,7 @@ def _parameters(sweep: Sweep) -> Table:
         "parameters",
         "What was varied; all other inputs are those of the base case.",
         (
-            Column("parameter", "prose"),
-            Column("key", "prose"),
+            *prose("parameter", "key"),
             Column("unit"),
             Column("base case", "number"),
             Column("values", "prose"),
@@ -83,11 +83,7 @@ def _outputs(sweep: Sweep) -> Table:
             Column("output", "prose"),
             Column("variant"),
             Column("unit"),
-            Column("least", "number"),
-            Column("2.5 %", "number"),
-            Column("median", "number"),
-            Column("97.5 %", "number"),
-            Column("largest", "number"),
+            *numbers("least", "2.5 %", "median", "97.5 %", "largest"),
         ),
         tuple(
             (output.label, variant, output.unit, *figures(variant, output))
@@ -101,33 +97,28 @@ def _outputs(sweep: Sweep) -> Table:
 def provenance_section(sweep: Sweep) -> Section:
     """Build the last section."""
     study = sweep.study
-    run = (
-        ("study", study.name),
-        ("base case", study.base_case),
-        ("variants", listed(study.variants)),
-        ("design", DESIGNS.get(study.design.kind, study.design.kind)),
-        ("samples", str(study.design.samples)),
-        ("seed", ABSENT if study.design.seed is None else str(study.design.seed)),
-        ("judged against", study.against or ABSENT),
-        ("state", f"{study.state}, {len(sweep.samples)} of {study.counts.total} samples recorded"),
-        ("created", study.created),
-        ("git commit", study.git_commit or ABSENT),
-    )
+    run = {
+        "study": study.name,
+        "base case": study.base_case,
+        "variants": listed(study.variants),
+        "design": DESIGNS.get(study.design.kind, study.design.kind),
+        "samples": study.design.samples,
+        "seed": study.design.seed,
+        "judged against": study.against,
+        "state": f"{study.state}, {len(sweep.samples)} of {study.counts.total} samples recorded",
+        "created": study.created,
+        "git commit": study.git_commit,
+    }
     blocks: list[Block] = [
         Paragraph(
             "Every sample with its values is in samples/ (Parquet, SI units; any data-frame library reads "
             "the folder). How to repeat it: check out the commit named below, and run the study again with "
             "python -m validation.sweep."
         ),
-        Table("run", "The sweep that this page draws.", (Column("what"), Column("value", "prose")), run),
+        pairs("run", "The sweep that this page draws.", ("what", "value"), run),
         _parameters(sweep),
         _outputs(sweep),
-        Table(
-            "versions",
-            "Versions of the libraries.",
-            (Column("package"), Column("version", "prose")),
-            tuple((name, str(version)) for name, version in study.versions.items()),
-        ),
+        pairs("versions", "Versions of the libraries.", ("package", "version"), study.versions),
     ]
     if sweep.text:
         blocks.append(Listing("The study", sweep.text))

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from matplotlib import colormaps, style
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -59,7 +58,6 @@ def responses(columns: Sequence[Abscissa], rows: Sequence[Ordinate]) -> str:
     with style.context(STYLE):
         total = _TOP + _BOTTOM + _HEIGHT * len(rows) + _ROW_GAP * (len(rows) - 1)
         figure = Figure(figsize=(WIDTH, total))
-        FigureCanvasSVG(figure)
         width = (WIDTH - _LEFT - _RIGHT - _GAP * (len(columns) - 1)) / len(columns)
         for number, row in enumerate(rows):
             bottom = total - _TOP - (number + 1) * _HEIGHT - number * _ROW_GAP
@@ -139,7 +137,6 @@ def planes(pairs: Sequence[Plane], row: Ordinate) -> str:
         height, bar, right = 1.75, 0.09, 0.75
         total = _TOP + _BOTTOM + height
         figure = Figure(figsize=(WIDTH, total))
-        FigureCanvasSVG(figure)
         gap = 0.75
         room = WIDTH - _LEFT - right - gap * (len(pairs) - 1)
         width = min(room / len(pairs), 3.4)

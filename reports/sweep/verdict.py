@@ -6,7 +6,7 @@ import numpy as np
 
 from cases.results.metric_row import Status
 from cases.results.sweep import VariedParameter
-from reports.blocks import Block, Bullets, Column, Paragraph, Section, Table, Warnings
+from reports.blocks import Block, Bullets, Column, Paragraph, Section, Table, Warnings, numbers
 from reports.sweep.amounts import amount, ends, is_error
 from reports.sweep.folder import FAILED, Sweep
 from reports.sweep.held import Held, sentence
@@ -117,11 +117,7 @@ def _bands(bands: Sequence[Held]) -> Table:
             Column("variant"),
             Column("verdict", "status"),
             Column("quantity", "prose"),
-            Column("limit", "number"),
-            Column("holds in", "number"),
-            Column("median", "number"),
-            Column("worst", "number"),
-            Column("sample", "number"),
+            *numbers("limit", "holds in", "median", "worst", "sample"),
             Column("reason for the limit", "prose"),
         ),
         tuple(rows),

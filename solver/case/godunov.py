@@ -1,7 +1,7 @@
 """A checked case run with the Godunov scheme."""
 
 from collections.abc import Iterator
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from solver.marching.godunov import Stepper, chunks, march, target_steps
 from solver.marching.godunov_setup import Setup, State, held, load, reference_state
 from solver.marching.row_stepper import offsets
 from solver.marching.steady import steady_state
-from solver.marching.walk import Kept, Stop
+from solver.marching.walk import Kept, Stop, kept_of, state_of
 from solver.model.boundary import NonReflectingOutlet, Outlet, ResistanceOutlet, WindkesselOutlet
 from solver.model.diagnostics import Columns
 from solver.model.parameters import Model
@@ -108,15 +108,9 @@ def _columns(model: Model, steady: SteadyState) -> State:
 
 
 def walk_godunov(case: Case, model: Model, times: Floats, kept: Kept | None = None) -> Iterator[Stop]:
-    """Run a case through the steps nearest to ``times`` (s), the first its start or where ``kept`` was left.
-
-    Raises
-    ------
-    SolverError
-        As :func:`setup_of`, the march to the steady start, the scheme and the case's limits raise it.
-    """
+    """Run a case through the steps nearest to ``times`` (s), from its start or where ``kept`` was left."""
     setup = setup_of(case, model)
-    state = initial_columns(case, model, setup) if kept is None else _state(kept)
+    state = initial_columns(case, model, setup) if kept is None else state_of(State, kept)
     begin = 0 if kept is None else int(kept["steps"])
     monitor = monitor_of(case, model, None if kept is None else kept["history"])
     dt = setup.time_step
@@ -129,7 +123,7 @@ def walk_godunov(case: Case, model: Model, times: Floats, kept: Kept | None = No
             columns = Columns(state.area, state.flow, state.exponent, _pressure(setup, state))
             defect = _mass_defect(model, old, state, stepper.passed, dt)
             diagnostics = monitor.look(state.time, columns, dt, defect)
-            left = _kept(state) | {"history": monitor.history, "steps": np.asarray(stepper.steps)}
+            left = kept_of(state) | {"history": monitor.history, "steps": np.asarray(stepper.steps)}
             yield Stop(float(time), columns, diagnostics, stepper.steps - begin, 0, dt, left)
 
 
@@ -146,11 +140,3 @@ def _mass_defect(model: Model, old: State, new: State, passed: Floats, time_step
 def _pressure(setup: Setup, state: State) -> Floats:
     strain = (np.sqrt(state.area) - setup.radius) / setup.radius**2
     return np.asarray(setup.reference_pressure + setup.wall.stiffness * strain)
-
-
-def _kept(state: State) -> Kept:
-    return {part.name: np.asarray(getattr(state, part.name)) for part in fields(State)}
-
-
-def _state(kept: Kept) -> State:
-    return State(float(kept["time"]), kept["area"], kept["flow"], kept["exponent"], float(kept["reservoir"]))

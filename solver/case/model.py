@@ -5,11 +5,12 @@ import numpy as np
 import cases.sections.outlet as stated
 from cases.arrays import Flags, Floats
 from cases.sections.case import Case
-from cases.sections.inlet import PrescribedInlet
-from cases.sections.solver import RESOLVED_PER_CYCLE, SemiImplicitSolver
+from cases.sections.inlet import FlowInlet, PressureInlet, ReferenceInlet, VelocityInlet
+from cases.sections.solver import RESOLVED_PER_CYCLE, SemiImplicitSolver, Solver
 from cases.values.waveform_file import Waveform as Samples
 from solver.case.stiffness import patch_of
 from solver.case.wall import walls_of
+from solver.errors import ModelError
 from solver.geometry.calcification import scaled_distance
 from solver.geometry.grid import Grid
 from solver.marching.steady import steady_state
@@ -52,13 +53,24 @@ def _signal(waveform: Samples | None, value: float | None, period: float) -> Sig
 
 
 def inlet_signal(case: Case) -> Signal:
-    """Return what is prescribed at the inlet over time, SI, without its ramp."""
-    inlet: PrescribedInlet = case.inlet
+    """Return what is prescribed at the inlet over time, SI, without its ramp.
+
+    Raises
+    ------
+    ModelError
+        Where nothing is prescribed, for the inflow is that of the 3D reference.
+    """
+    inlet = case.inlet
+    if isinstance(inlet, ReferenceInlet):
+        raise ModelError(
+            "inlet.kind: reference: the inflow is read from the 3D reference, which only a comparison does "
+            "(python -m validation.compare)"
+        )
     signal = _inlet_source(inlet)
     return signal if inlet.scale == 1.0 else Scaled(signal, inlet.scale)
 
 
-def _inlet_source(inlet: PrescribedInlet) -> Signal:
+def _inlet_source(inlet: VelocityInlet | FlowInlet | PressureInlet) -> Signal:
     if inlet.fourier is not None:
         series = inlet.fourier
         return FourierSeries(series.period, series.mean, tuple(series.cosines), tuple(series.sines))
@@ -99,7 +111,7 @@ def model_of(case: Case) -> Model:
     grid = grid_of(case)
     walls = walls_of(case, grid)
     settings = case.solver
-    implicit = isinstance(settings, SemiImplicitSolver)
+    exponent = settings.profile_exponent if isinstance(settings, SemiImplicitSolver) else None
     return Model(
         grid=grid,
         radius=case.geometry.radius,
@@ -110,15 +122,15 @@ def model_of(case: Case) -> Model:
         inlet=inlet_of(case),
         outlet=outlet_of(case),
         wall_table=walls.of_rows,
-        fixed_exponent=settings.profile_exponent if implicit else None,
+        fixed_exponent=exponent,
         section_wall=walls.of_sections,
-        two_modes=two_modes_of(settings) if implicit else None,
+        two_modes=two_modes_of(settings),
     )
 
 
-def two_modes_of(settings: SemiImplicitSolver) -> TwoModes | None:
+def two_modes_of(settings: Solver) -> TwoModes | None:
     """Velocity profiles of two modes of a case; None for those of one exponent."""
-    if settings.closure not in ("mean", "axis_momentum"):
+    if not isinstance(settings, SemiImplicitSolver) or settings.closure not in ("mean", "axis_momentum"):
         return None
     return TwoModes(settings.closure, settings.base_exponent)
 

@@ -9,7 +9,7 @@ from cases.sections.case import Case
 from solver.case.model import error_tolerance, initial_state
 from solver.case.semi_implicit import azimuthal_flux_of
 from solver.geometry.symmetry import all_rows, fewer_rows
-from solver.marching.choice import stepper_of
+from solver.marching.section_stepper import stepper_of
 from solver.marching.semi_implicit import equal_steps, implicitness
 from solver.marching.two_modes import mean_axis_velocity
 from solver.marching.walk import require_exponents
@@ -41,11 +41,6 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
         Increasing; the first is where the run starts.
     reached : callable
         Called at each of them.
-
-    Raises
-    ------
-    SolverError
-        As the march to the steady start and the scheme raise it.
     """
     grid, computed = model.grid, fewer_rows(model)
     n_phi = computed.grid.n_phi

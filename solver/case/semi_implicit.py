@@ -1,28 +1,21 @@
 """A checked case run with the semi-implicit scheme."""
 
 from collections.abc import Iterator
-from dataclasses import fields
 
 import numpy as np
 
 from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.model import error_tolerance, initial_state, monitor_of
-from solver.marching.semi_implicit import Snapshot, snapshots
-from solver.marching.walk import Kept, Stop
+from solver.marching.semi_implicit import snapshots
+from solver.marching.walk import Kept, Stop, kept_of, state_of
 from solver.model.cross_flow import azimuthal_flux
 from solver.model.parameters import Model, State
 
 
 def walk_semi_implicit(case: Case, model: Model, times: Floats, kept: Kept | None = None) -> Iterator[Stop]:
-    """Run a case through ``times`` (s); the first is where it starts, or where ``kept`` was left.
-
-    Raises
-    ------
-    SolverError
-        As the march to the steady start, the scheme and the case's limits raise it.
-    """
-    start = initial_state(case, model) if kept is None else _state(kept)
+    """Run a case through ``times`` (s); the first is where it starts, or where ``kept`` was left."""
+    start = initial_state(case, model) if kept is None else state_of(State, kept)
     first_step = None if kept is None else float(kept["next_step"])
     monitor = monitor_of(case, model, None if kept is None else kept["history"])
     limit = error_tolerance(case)
@@ -34,7 +27,8 @@ def walk_semi_implicit(case: Case, model: Model, times: Floats, kept: Kept | Non
             snapshot.steps,
             snapshot.sweeps,
             snapshot.longest_step,
-            {**_kept(snapshot), "history": monitor.history},
+            kept_of(snapshot.state)
+            | {"next_step": np.asarray(snapshot.next_step), "history": monitor.history},
             azimuthal_flux_of(model, snapshot.state),
         )
 
@@ -45,23 +39,4 @@ def azimuthal_flux_of(model: Model, state: State) -> Floats | None:
         return None
     return azimuthal_flux(
         model.section_wall, model.grid.dx, model.grid.dphi, state.pressure[:, 0], state.flow
-    )
-
-
-def _kept(snapshot: Snapshot) -> Kept:
-    known = {part.name: getattr(snapshot.state, part.name) for part in fields(State)}
-    state = {name: np.asarray(part) for name, part in known.items() if part is not None}
-    return {**state, "next_step": np.asarray(snapshot.next_step)}
-
-
-def _state(kept: Kept) -> State:
-    return State(
-        float(kept["time"]),
-        kept["area"],
-        kept["flow"],
-        kept["pressure"],
-        kept["inlet_pressure"],
-        kept["outlet_pressure"],
-        float(kept["reservoir"]),
-        kept.get("axis_velocity"),
     )

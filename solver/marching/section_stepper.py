@@ -94,3 +94,8 @@ def fields_of(model: Model, state: State) -> section_layout.Fields:
         [[cells.inlet_pressure.mean()], cells.pressure.mean(axis=1), [cells.outlet_pressure.mean()]]
     )
     return section_layout.Fields(cells.area, cells.flow, pressure, cells.reservoir)
+
+
+def stepper_of(model: Model, state: State) -> Stepper:
+    """Stepper of a model's rows, or of its sections where they have one pressure each."""
+    return Stepper(model, state) if model.section_wall is None else SectionStepper(model, state)

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from cases.arrays import Floats
 from solver.errors import ModelError, NotConverged, RunFailure
-from solver.marching.choice import stepper_of
 from solver.marching.columns import columns_of
 from solver.marching.row_stepper import Stepper
+from solver.marching.section_stepper import stepper_of
 from solver.marching.steady import steady_state
 from solver.model.diagnostics import Columns, Diagnostics, Limits, Monitor, by_name
 from solver.model.parameters import Model, State

@@ -3,8 +3,8 @@
 import numpy as np
 
 from solver.errors import NotSteady, RunFailure
-from solver.marching.choice import stepper_of
 from solver.marching.row_stepper import offsets
+from solver.marching.section_stepper import stepper_of
 from solver.model.boundary import NonReflectingOutlet, ResistanceOutlet
 from solver.model.parameters import Model, State, uniform_state
 from solver.schemes.layout import REST_VELOCITY

@@ -1,7 +1,8 @@
 """Stops of a run, alike for both schemes: what is saved there, and what the run needs to go on."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import fields
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -11,6 +12,22 @@ from solver.model.diagnostics import Columns, Diagnostics, by_name
 from solver.runs.result import CellHistory
 
 Kept = dict[str, Floats]
+
+
+S = TypeVar("S")
+
+
+def kept_of(state: Any) -> Kept:
+    """Parts of a scheme's state, a dataclass, by name; not those that it has none of."""
+    known = {part.name: getattr(state, part.name) for part in fields(state)}
+    return {name: np.asarray(part) for name, part in known.items() if part is not None}
+
+
+def state_of(scheme: type[S], kept: Kept) -> S:
+    """State of a scheme, whose class it is, from its parts; those without axes are numbers."""
+    names = [part.name for part in fields(scheme)]  # type: ignore[arg-type]
+    parts = {name: kept[name] for name in names if name in kept}
+    return scheme(**{name: values if values.ndim else float(values) for name, values in parts.items()})
 
 
 class Stop(NamedTuple):

@@ -15,9 +15,9 @@ from numpy.polynomial import chebyshev
 from cases.arrays import Floats
 from solver.geometry.grid import Grid
 from solver.geometry.spatial_angle import radius_at_angles
+from solver.kept import kept_array
 from solver.wall.membrane import Membrane, displacement
 from solver.wall.sections import SectionWall, from_radii
-from solver.wall.store import kept_array
 
 PRESSURES = 12  # that the membrane is solved for
 KNOTS = 40  # of the table above p = 0

@@ -3,14 +3,8 @@
 import pytest
 
 from cases.errors import CaseError
-from cases.sections.case import (
-    FlowInlet,
-    NonReflectingOutlet,
-    PressureInlet,
-    PressureOutlet,
-    VelocityInlet,
-    WindkesselOutlet,
-)
+from cases.sections.inlet import FlowInlet, PressureInlet, VelocityInlet
+from cases.sections.outlet import NonReflectingOutlet, PressureOutlet, WindkesselOutlet
 from solver.case.model import inlet_signal
 
 INLET = "{kind: velocity, waveform: data/inlet.csv}"

@@ -7,7 +7,8 @@ from pydantic import ValidationError
 
 from cases.errors import CaseError, CaseFileError
 from cases.reading.case_file import load_case_file
-from cases.sections.case import Case, LocalCalcification
+from cases.sections.calcification import LocalCalcification
+from cases.sections.case import Case
 
 
 def test_the_ready_file_loads(ready_file):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from cases.sections.case import GodunovSolver, SemiImplicitSolver
+from cases.sections.solver import GodunovSolver, SemiImplicitSolver
 
 THICK = "{law: thick, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48}"
 GODUNOV = ("scheme: semi_implicit", "scheme: godunov")

@@ -131,6 +131,21 @@ def test_what_is_no_closed_waveform_is_refused(read, text, message):
     assert str(caught.value) == message
 
 
+@pytest.mark.parametrize(
+    ("separator", "word"),
+    [("\t", "tabs"), (";", "semicolons"), ("|", "bars"), ("  ", "blanks"), (" ; ", "semicolons")],
+)
+def test_other_separators_are_named(read, separator, word):
+    text = "t_s,mean_velocity_m_s\n0,1\n0.5,2\n1,1\n".replace(",", separator)
+    with pytest.raises(ColumnFileError, match=f"line 1: {word} separate columns; allowed: commas"):
+        read(text)
+
+
+def test_decimal_commas_are_asked_after(read):
+    with pytest.raises(ColumnFileError, match=r"line 2: 4 columns; allowed: 2: are there decimal commas\?"):
+        read(f"{HEADER}\n0,0,1,0\n0,5,2,0\n1,0,1,0\n")
+
+
 def test_a_missing_file_is_refused(tmp_path):
     with pytest.raises(ColumnFileError, match=r"none\.csv: No such file"):
         read_waveform(tmp_path / "none.csv")

@@ -26,6 +26,10 @@ def main():
     assert sys.argv[1] == "-i"
     model = Path(sys.argv[2])
     behaviour = Path("behaviour").read_text()
+    Path("arguments").write_text("\n".join(sys.argv[1:]))
+    log_name, plot_name = model.with_suffix(".log"), model.with_suffix(".xplt")
+    if Path("names").exists():  # those that the model gives
+        log_name, plot_name = map(Path, Path("names").read_text().split())
     Path("pid").write_text(str(os.getpid()))
     Path("threads").write_text(os.environ.get("OMP_NUM_THREADS", ""))
     sys.stdout.write("on the screen\n")
@@ -35,7 +39,7 @@ def main():
     if behaviour == "stubborn":
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
     plot = Path("real.xplt").read_bytes()
-    with model.with_suffix(".log").open("w") as log, model.with_suffix(".xplt").open("wb") as out:
+    with log_name.open("w") as log, plot_name.open("wb") as out:
         log.write(HEAD)
         for number in range(1, 5):
             log.write(step(number, 0.1 * number))
@@ -53,7 +57,7 @@ def main():
                 os.kill(os.getpid(), signal.SIGKILL)
         log.write(TIMING + "\n N O R M A L   T E R M I N A T I O N\n")
     if behaviour == "no plot":
-        model.with_suffix(".xplt").unlink()
+        plot_name.unlink()
     return 0
 
 

@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from ruamel.yaml import YAML
 
+from cases.errors import CaseFileError
+from cases.reading.case_file import load_case_file
 from febio_io.feb.calcified import calcified_elements
 from febio_io.feb.command import main
 from febio_io.feb.cross_section import cross_section
@@ -195,7 +197,7 @@ def test_wall_laws(write, tmp_path, law, material):
             {"kind": "windkessel", "proximal_resistance": "1e8 Pa s/m^3", "distal_resistance": "2e9 Pa s/m^3"}
             | {"compliance": "1e-10 m^3/Pa", "venous_pressure": "100 Pa"},
             "fluid RCR",
-            {"R": 1e8, "Rd": 2e9, "capacitance": 1e-10, "pressure_offset": 100, "initial_pressure": 0},
+            {"R": 1e8, "Rd": 2e9, "capacitance": 1e-10, "pressure_offset": 1, "initial_pressure": 0},
         ),
         ({"kind": "pressure", "value": "12 kPa"}, "fluid pressure", {"pressure": 1}),
     ],
@@ -208,6 +210,19 @@ def test_other_outlets(write, tmp_path, outlet, kind, expected):
     assert {name: value[1] for name, value in found[2][2]} == expected
     if kind == "fluid pressure":
         assert_allclose(model.curves()["3"][[0, -1], 1], [0, 12e3])
+    else:  # the charge has leaked for 8 time constants
+        assert_allclose(model.curves()["3"][[0, -1], 1], [0, 100], atol=6)
+
+
+def test_a_case_whose_run_is_not_there_needs_no_generate(write, tmp_path, capsys):
+    assert write("--mesh", "8,2,1,3", generate=None) == 0
+    case = tmp_path / "case.yaml"
+    case.write_text(case.read_text().replace("generate:", "log: missing.log"), encoding="utf-8")
+    (tmp_path / "model.feb").unlink()
+    assert main([str(case), "--output", str(tmp_path / "model.feb"), "--mesh", "8,2,1,3"]) == 0
+    assert read_structure(tmp_path / "model.feb").n_steps > 0
+    with pytest.raises(CaseFileError, match=r"missing\.xplt: no such file"):
+        load_case_file(case)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 
+from febio_io.command import main
 from febio_io.errors import FebioError, FebioFileError, FebioFormatError
 from febio_io.text.data_records import read_data_record
 
@@ -147,6 +148,97 @@ def test_other_files_are_refused(record_of, content):
 def test_missing_files(tmp_path):
     with pytest.raises(FebioFileError, match="cannot be opened"):
         read_data_record(tmp_path / "none.txt")
+
+
+@pytest.mark.parametrize("end", ["", "%s"])
+def test_lines_without_item_numbers_are_read_by_position(record_of, end):
+    rows = ("0 0 0", "1 0 0", "0 1 0.5")
+    whole = record_of("".join(block(k, k, *(f"{row}{end}" for row in rows), name="x;y;z") for k in (0, 1)))
+    assert_array_equal(whole.to_xarray()["item"], [1, 2, 3])
+    assert_array_equal(whole.to_xarray()["z"], [[0, 0, 0.5]] * 2)
+    assert "its lines have no item numbers" in whole.warnings[0]
+    one_a_line = record_of(block(0, 0, *" ".join(rows).split(), name="x;y;z"))
+    assert_array_equal(one_a_line.values, whole.values[:3])
+    (single,) = record_of(block(0, 0, "0.25", "0.75", name="ux")).to_xarray()["ux"].values
+    assert_array_equal(single, [0.25, 0.75])
+
+
+def test_one_value_a_line_that_ends_in_an_item(record_of):
+    text = "".join(block(k, k, "1", "2", "3", "4") for k in (0, 1))
+    cut = record_of(text.removesuffix("4\n"))
+    assert (len(cut.times), "cut off" in cut.warnings[0]) == (1, True)
+    with pytest.raises(FebioFormatError, match="line 1: a block whose last item lacks values"):
+        record_of(block(0, -1, "1", "2", "3") + text)
+
+
+def test_items_that_repeat_in_a_block_are_warned_of(record_of):
+    (warning,) = record_of(block(0, 0, "0 0 0.5", "1 0 0.5", "0 1 0.5", name="a name")).warnings
+    assert "an item stands twice in a block: item numbers may be missing" in warning
+
+
+@pytest.mark.parametrize("row", ["1 0,5 0,25", "1;0,5;0,25", "1\t0,5\t0,25"])
+def test_decimal_commas_are_refused(record_of, row):
+    with pytest.raises(FebioFormatError, match=r"line 4: .*commas in numbers.*allowed: decimal points"):
+        record_of(block(0, 0, row))
+
+
+def test_names_against_values(record_of):
+    (warning,) = record_of(block(0, 0, "1,0,5,0,25")).warnings
+    assert "2 names (ux;uy) but 4 values an item: are there decimal commas?" in warning
+    assert record_of(block(0, 0, "1 0.5,2.25")).warnings == ()  # a format of two separators
+    assert record_of(block(0, 0, "1 5,2")).warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("row", "found"),
+    [
+        ("5 -nan(ind) nan", [math.nan, math.nan]),
+        ("6 inf -inf", [math.inf, -math.inf]),
+        ("7 nan(snan) 1.0", [math.nan, 1]),
+        ("8 1.#QNAN -1.#INF", [math.nan, -math.inf]),
+        ("9 -1.#IND00e+000 1.#INF00", [math.nan, math.inf]),
+        ("1 NaN(0x7ff) -Inf", [math.nan, -math.inf]),
+    ],
+)
+def test_values_that_are_no_numbers(record_of, row, found):
+    assert_array_equal(record_of(block(0, 0, row)).values, [found])
+
+
+@pytest.mark.parametrize(
+    "row", ["5:0.5:-0.25", "5 / 0.5 / -0.25", "5: 0.5 -0.25", "5&.5&-25e-02", "5=>.5=>-.25"]
+)
+def test_any_separator_is_found(record_of, row):
+    assert_array_equal(record_of(block(0, 0, row)).values, [[0.5, -0.25]])
+
+
+def test_a_separator_may_be_named(record_of):
+    text = block(0, 0, "5 x 0.5 x -0.25")
+    with pytest.raises(FebioFormatError, match="'x' is no number; separators are blanks, commas, semicolons"):
+        record_of(text)
+    assert_array_equal(record_of(text, delimiter="x").values, [[0.5, -0.25]])
+    for delimiter in ("", "-", "e"):
+        with pytest.raises(FebioFormatError, match="allowed: a text that is no part of a number"):
+            record_of(text, delimiter=delimiter)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("before", ["", "# exported\n", "\n# a\n#b\n"])
+def test_marks_of_encodings_and_comments(write, encoding, before):
+    path = write((before + TWO).encode(encoding), "data.txt")
+    assert read_data_record(path).columns == ("ux", "uy")
+    assert main([str(path)]) == 0
+
+
+@pytest.mark.parametrize("name", ["bom", "delim_colon", "format_noitem", "hash_comment", "ucrt_nan"])
+def test_small_records_as_people_have_them(shared_data, name):
+    record = read_data_record(shared_data / "inputs_that_fail" / f"rec_{name}.txt")
+    assert record.columns == tuple(record.name.split(";"))
+    assert bool(record.warnings) == (name == "format_noitem")
+
+
+def test_a_small_record_with_decimal_commas(shared_data, capsys):
+    assert main([str(shared_data / "inputs_that_fail" / "rec_decimal_comma.txt")]) == 2
+    assert "allowed: decimal points" in capsys.readouterr().err
 
 
 def test_real_records(shared_data):

@@ -15,12 +15,12 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 from xplt_samples import ITEMS, MESH, SMALL_MESH, sample_file, sample_sections, state_values
 from xplt_writer import Item, Writer
 
+from febio_io.command import parse_states
 from febio_io.errors import FebioError, FebioFileError, FebioKeyError
-from febio_io.selection import parse_states
 from febio_io.text.data_records import read_data_record
 from febio_io.text.log import read_log
 from febio_io.views.export import export_log, export_plot, export_record
-from febio_io.views.file_names import safe_name
+from febio_io.views.staging import safe_name
 from febio_io.xplt import open_plot
 
 FORMATS = ["vtu", "vtkhdf", "csv", "nc"]

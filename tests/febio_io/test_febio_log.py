@@ -20,6 +20,7 @@ from log_samples import (
 )
 from numpy.testing import assert_array_equal
 
+from febio_io.command import main
 from febio_io.errors import FebioError, FebioFileError, FebioFormatError, FebioKeyError
 from febio_io.text.log import read_log
 
@@ -143,6 +144,41 @@ def test_a_record_cut_off_by_a_kill_ends_with_its_last_whole_block(log_of, missi
     blocks = [record(1, step, step, "x;y", "1 0 0", "2 1 0") for step in range(3)]
     values = log_of(BANNER + "".join(blocks).rstrip("\n")[:-missing]).data_record(1)
     assert values.times.tolist() == [0, 1]
+
+
+def test_norms_that_windows_writes_are_kept(shared_data):
+    log = read_log(shared_data / "inputs_that_fail" / "log_norm_nan_windows.log")
+    (iteration_,) = log.time_steps[0].iterations
+    assert list(iteration_.norms) == ["residual", "energy"]
+    assert math.isnan(iteration_.norms["residual"].current)
+    assert iteration_.norms["residual"].initial == 1.0
+
+
+@pytest.mark.parametrize("word", ["Time in solver", "Time in linear solver"])
+def test_times_of_old_versions(log_of, word):
+    text = begin(1, 1) + f"\t{word}: 0:01:30\n\n Elapsed time : 1:02:03\n\n{NORMAL}"
+    log = log_of(text)
+    assert (log.elapsed, log.timings["time in linear solver"]) == (3723.0, 90.0)
+    timed = log_of(f"{text}\tTotal elapsed time .............. : 1:02:03 (3723.5 sec)\n")
+    assert timed.timings == {"Total elapsed time": 3723.5}
+
+
+def test_the_small_log_of_an_old_version(shared_data):
+    assert read_log(shared_data / "inputs_that_fail" / "log_old_elapsed.log").elapsed == 120.0
+
+
+ALONE = BANNER.partition(" FILES USED")[0]
+
+
+@pytest.mark.parametrize("text", [ALONE, f"Notes\n{ALONE}version 9.9\n", "it lists\n  FILES USED by FEBio\n"])
+def test_a_banner_alone_is_no_log(log_of, text):
+    with pytest.raises(FebioFileError, match="not an FEBio log"):
+        log_of(text)
+
+
+def test_release_notes_are_no_log(shared_data, capsys):
+    assert main([str(shared_data / "inputs_that_fail" / "not_a_log_release_notes.txt")]) == 2
+    assert "not an FEBio plot file, log, data record or model" in capsys.readouterr().err
 
 
 def test_other_files_are_refused(write, tmp_path):

@@ -13,8 +13,8 @@ from xplt_samples import sample_file
 
 from febio_io.run import process
 from febio_io.run.command import main
-from febio_io.run.executable import FebioRunError, find_febio
-from febio_io.run.log_tail import LogTail
+from febio_io.run.endings import explain_ending
+from febio_io.run.process import FebioRunError, LogTail, find_febio
 from febio_io.xplt import open_plot
 
 ROOT = Path(__file__).parents[2]
@@ -74,7 +74,10 @@ def test_a_run_that_ends_normally(run, model):
 @pytest.mark.parametrize(
     ("behaviour", "said"),
     [
-        ("error", r"model.log: FEBio ended with an error: Negative jacobian was detected. \(line \d+\)"),
+        (
+            "error",
+            r"model.log: FEBio ended with an error: Negative jacobian was detected. \(line \d+\); .*means",
+        ),
         ("killed", r"model.log: FEBio was ended by signal 9 after 2 time steps, unfinished"),
         ("silent", r"FEBio ended with status 3 and wrote no log: on the screen"),
         ("no plot", r"model.log: FEBio ended normally, but model.xplt is missing"),
@@ -103,12 +106,72 @@ def test_results_of_an_earlier_run_are_kept_unless_they_may_go(run, model):
     assert run("normal", "--force")[0] == 0
 
 
-def test_a_model_that_is_wrong_is_not_run(run, model):
+def test_a_model_with_problems_is_run_all_the_same(run, model):
     model.write_text(MODEL.replace("1,2,3,4<", "1,2,3,5<"))
     status, _, err = run("normal")
-    assert status == 2
+    assert status == 0
+    assert err.startswith(f"warning: {model}: ")
     assert "node 5, which does not exist" in err
+
+
+@pytest.mark.parametrize("text", [MODEL[:200], "<febio_config version='3.0'/>"])
+def test_what_is_no_model_is_not_run(run, model, text):
+    model.write_text(text)
+    status, _, err = run("normal")
+    assert (status, "not a FEBio model" in err) == (2, True)
     assert not (model.parent / "pid").exists()
+
+
+def test_a_model_may_name_its_results(run, model):
+    output = '<Output><plotfile type="febio" file="p.xplt"/><logfile file="l.log"/></Output></febio_spec>'
+    model.write_text(MODEL.replace("</febio_spec>", output))
+    (model.parent / "names").write_text("l.log p.xplt")
+    status, out, err = run("normal")
+    assert (status, err) == (0, "")
+    assert out.rstrip().endswith(f"wrote {model.parent / 'p.xplt'}, {model.parent / 'l.log'}")
+    assert run("normal")[0] == 2  # they are results of an earlier run now
+    assert run("normal", "--force")[0] == 0
+
+
+def test_a_model_may_want_no_plot_file(run, model):
+    model.write_text(MODEL.replace("<time_steps>", "<plot_level>PLOT_NEVER</plot_level><time_steps>"))
+    assert run("no plot")[0] == 0
+
+
+def test_a_configuration_is_passed_on(run, model, monkeypatch):
+    monkeypatch.chdir(model.parent)
+    Path("own.xml").write_text("<febio_config/>")
+    for option in ("--config", "-cnf"):
+        assert run("normal", option, "own.xml", "--force")[0] == 0
+        assert Path("arguments").read_text().splitlines()[2:] == ["-cnf", str(model.parent / "own.xml")]
+    status, _, err = run("normal", "--config", "absent.xml", "--force")
+    assert (status, err) == (2, "febio_io.run: --config absent.xml: there is no such file\n")
+
+
+@pytest.mark.parametrize(
+    ("said", "meaning"),
+    [
+        ("The selected linear solver does not support the requested matrix format.", "'skyline' is for symm"),
+        (
+            "\tDefault linear solver ..... : pardiso\nsolver does not support the requested matrix format",
+            "MKL",
+        ),
+        ("Negative jacobian was detected at element 7 at gauss point 2", "an element was turned inside out"),
+        ("Negative jacobian detected during mesh initialization.", "inside out from the start"),
+        ("Max. nr of retries reached.", "<max_retries> and <dtmin>"),
+        ("FATAL ERROR: 3 zero(s) found on diagonal.", "without resistance"),
+        ("NAN detected in residual vector at index 3.", "values ran away"),
+        ("A memory allocation failure has occured.", "does not fit into memory"),
+        ("Error: PARDISO licence file not found", "wants a licence"),
+        ("FATAL ERROR: An error occurred reading the configuration file.", "could not be read"),
+    ],
+)
+def test_common_endings_are_explained(said, meaning):
+    before = "Negative jacobian was detected\n------- converged at time : 1\n"
+    found = explain_ending(before + f" * {said} *\n")
+    assert meaning in found
+    assert said.splitlines()[-1][:40] in found
+    assert explain_ending(f"{said}\n------- converged at time : 1\n") == ""
 
 
 @pytest.mark.parametrize("threads", ["0", "5000"])

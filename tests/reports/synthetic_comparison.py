@@ -249,6 +249,7 @@ def _row(variant: str, quantity: str, statistic: str, unit: str, **rest: Any) ->
         "variant": variant,
         "quantity": quantity,
         "statistic": statistic,
+        "inflow": "",
         **blank,
         "unit": unit,
         "status": "",

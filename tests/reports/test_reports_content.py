@@ -113,6 +113,7 @@ def test_the_checks_of_the_3d_side_are_shown(finished: tuple[Path, Rows]) -> Non
             f"{100 * defect:.2f} %",
             "0 %",
             "100.00 %",
+            "—",
             "< 0.01 %",
         ]
 
@@ -173,6 +174,41 @@ def test_what_is_missing_is_said_not_to_be_known(finished: tuple[Path, Rows]) ->
     unknown = verdict.unknowns(load(finished[0]))
     assert any("lag of the reduced model's outlet flow" in said for said in unknown)
     assert any("finer mesh" in said for said in unknown)
+
+
+@pytest.mark.parametrize("change", [0.0023, 0.05, 0.083])
+def test_a_reference_that_is_not_periodic_is_not_judged(tmp_path: Path, change: float) -> None:
+    synthetic.write(tmp_path, synthetic.Setup(variants=("none", "local")))
+    path = tmp_path / "provenance.json"
+    record = json.loads(path.read_text())
+    record["variants"]["local"]["reference"]["cycle_change"] = change
+    path.write_text(json.dumps(record))
+    comparison = load(tmp_path)
+    section = verdict.section(comparison)
+    row = next(row for row in _table(section, "trust").rows if row[0] == "3D change over a cycle")
+    column = [column.title for column in _table(section, "trust").columns].index("local")
+    assert row[column].replace("\u00a0", " ") == f"{100 * change:.2f} %"
+    unsettled = change > 0.05
+    said = dict(line.split(": ", 1) for line in verdict.by_variant(comparison))
+    assert said["local"].startswith("3D is not periodic (it changes by 8.30") == unsettled
+    assert said["local"].endswith("so that its difference from 2D is no model error.") == unsettled
+    assert ("the 2D model" in said["local"]) == (not unsettled)
+    assert ("local: 3D is not periodic" in verdict.headline(comparison)) == unsettled
+    bands = [row for row in comparison.metrics.bands() if row.variant != "local" or not unsettled]
+    assert f"of {len(bands)} bands hold" in verdict.headline(comparison)
+    assert not (unsettled and "in variant local" in verdict.worst(comparison))
+    unmeasured = [words for words in verdict.unknowns(comparison) if words.startswith("Of 3D one cycle")]
+    assert not any("local" in words for words in unmeasured)
+
+
+def test_nothing_is_judged_where_no_reference_is_periodic(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    path = tmp_path / "provenance.json"
+    path.write_text(path.read_text().replace('"coverage": 1.0', '"coverage": 1.0, "cycle_change": 1.4'))
+    comparison = load(tmp_path)
+    assert verdict.headline(comparison).startswith("Nothing is judged (")
+    assert verdict.worst(comparison) == ""
+    assert len(_blocks(verdict.section(comparison), Table)) > 1
 
 
 def test_a_single_cycle_is_said(tmp_path: Path, small: synthetic.Setup) -> None:

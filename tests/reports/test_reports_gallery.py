@@ -7,7 +7,7 @@ import pytest
 import synthetic_comparison as synthetic
 
 from reports.command import main
-from reports.gallery import entry, gallery_place, render_gallery
+from reports.html.gallery import entry, gallery_place, render_gallery
 from reports.result.load import load
 from reports.sections.content import report
 

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from reports.html.packed import ABSENT, LEVELS, Packed, pack
 from reports.result.load import load
 from reports.sections.content import report
+from reports.sections.parts.page_data import ABSENT, LEVELS, Packed, pack
 
 
 def unpack(packed: Packed) -> np.ndarray:

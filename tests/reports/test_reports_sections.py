@@ -10,8 +10,8 @@ import pypdf
 import pytest
 import synthetic_comparison as synthetic
 
-from reports import write_reports
 from reports.blocks import Paragraph
+from reports.build import write_reports
 from reports.result.load import Comparison, load
 from reports.sections import cycle
 from reports.sections.content import report

@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 from cases.results.metric_row import metric_row
 from reports.result.metrics import Metrics
-from reports.sections.parts import change_apart, further, pooled
+from reports.sections.assumptions import further_figures
+from reports.sections.parts import pooled
 
 
 def row(statistic, error, rom=None, reference=None, variant="local"):
@@ -46,7 +47,7 @@ def test_a_bias_stands_beside_its_interval():
         "—",
         "—",
     ]
-    assert further.table(comparison(*rows), frozenset()) is None
+    assert further_figures(comparison(*rows), frozenset()) is None
 
 
 def test_a_bias_without_an_interval_says_so():
@@ -56,9 +57,9 @@ def test_a_bias_without_an_interval_says_so():
 
 def test_changes_are_shown_with_their_sizes_and_distance():
     apart = row("change_rms", 0.869, rom=75.0e-6, reference=64.1e-6)
-    table = change_apart.table(comparison(apart, row("change_rms", 0.0, variant="none")), ("local",))
+    table = pooled.change_apart(comparison(apart, row("change_rms", 0.0, variant="none")), ("local",))
     assert [plain(line) for line in table.rows] == [["local", "lumen radius", "64.1 μm", "75.0 μm", "87 %"]]
 
 
 def test_without_changes_there_is_no_table():
-    assert change_apart.table(comparison(row("bias", 0.1)), ("local",)) is None
+    assert pooled.change_apart(comparison(row("bias", 0.1)), ("local",)) is None

@@ -18,10 +18,9 @@ from reports.command import main
 from reports.errors import ReportError
 from reports.sweep import write_sweep_page
 from reports.sweep.amounts import amount, axis_label, ends
-from reports.sweep.build import sweep_report
+from reports.sweep.build import page_data, sweep_report
 from reports.sweep.folder import load_sweep
 from reports.sweep.held import Held, all_held, sentence, splits
-from reports.sweep.page_data import page_data
 from reports.sweep.scatter import means
 from reports.sweep.verdict import headline
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from solver.sources import sources_digest
+from solver.kernel_cache import sources_digest
 
 ROOT = Path(__file__).parents[2]
 

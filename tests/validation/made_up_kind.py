@@ -12,6 +12,8 @@ Where = Literal["nodes", "cells"]
 class TubeReference(MeshReference):
     kind: Annotated[Literal["tube"], one_of(Literal["tube"])]
     states: int
+    cycles: int = 1
+    approach: float | None = None
     values: Annotated[Where, one_of(Where)] = "nodes"
 
 

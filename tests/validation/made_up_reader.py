@@ -10,14 +10,19 @@ from tubes import Tube
 from validation.mapping.interpolation import topology
 from validation.mapping.mesh import padded
 from validation.mapping.pressure import element_centres
-from validation.reference.mesh.frame import frame
+from validation.reference.mesh.model import frame
 from validation.reference.mesh.read import mesh_kind
 from validation.reference.mesh.series import Account, MeshState, SeriesMesh
+
+PERIOD = 2.392 / 3
 
 
 @dataclass(frozen=True)
 class TubeSeries:
-    """A tube at rest in its deformed state, whose mesh lies as the section says."""
+    """A tube at rest in its deformed state, whose mesh lies as the section says.
+
+    Its pressure is steady, or grows from half of that as 1 − e^(−t/τ)/2 with τ = ``approach`` in s.
+    """
 
     stated: TubeReference
     tube: Tube
@@ -28,7 +33,9 @@ class TubeSeries:
 
     @property
     def times(self):
-        return np.linspace(0.0, 2.392 / 3, self.stated.states)
+        return (
+            PERIOD * np.arange((self.stated.states - 1) * self.stated.cycles + 1) / (self.stated.states - 1)
+        )
 
     def _points(self, points):
         place = frame(self.stated.axis, self.stated.phi_zero, self.stated.origin)
@@ -44,14 +51,15 @@ class TubeSeries:
         )
 
     def state(self, number):
-        assert 0 <= number < self.stated.states
-        tube = self.tube
+        assert 0 <= number < len(self.times)
+        tube, approach = self.tube, self.stated.approach
+        grown = 1.0 if approach is None else 1 - 0.5 * np.exp(-self.times[number] / approach)
         positions = self._points(tube.coordinates + tube.displacement)
         if self.stated.values == "nodes":
-            return MeshState(positions, self._directions(tube.velocity), tube.nodal_pressure)
+            return MeshState(positions, self._directions(tube.velocity), grown * tube.nodal_pressure)
         lumen = topology(*padded(tube.lumen), len(tube.coordinates))
         values = [element_centres(lumen, tube.velocity)]
-        values.append(element_centres(lumen, np.tile(tube.nodal_pressure[:, None], 3)))
+        values.append(element_centres(lumen, np.tile(grown * tube.nodal_pressure[:, None], 3)))
         return MeshState(positions, self._directions(values[0]), values[1][:, 0])
 
     def account(self):

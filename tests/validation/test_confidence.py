@@ -8,8 +8,7 @@ from comparisons import N_T, equal_models, two_models
 from hypothesis import given
 from hypothesis import strategies as st
 
-from validation.metrics.bootstrap import block_length, mean_interval
-from validation.metrics.confidence import confidence_rows
+from validation.metrics.confidence import block_length, confidence_rows, mean_interval
 
 
 def red_noise(rng, n, memory):

@@ -10,14 +10,14 @@ from validation.errors import UnusableReferenceError
 from validation.mapping.derived import derived_fields
 from validation.mapping.elements import HEXAHEDRON, WEDGE
 from validation.mapping.mesh import Block, lumen_mesh
-from validation.mapping.plane_section import lumen_grid, plane_flow_rate
 from validation.mapping.pressure import element_centres, recovery_operator
 from validation.mapping.rays import rays
 from validation.mapping.state import Mapper
 from validation.mapping.surface import area_across_axis, flow_along_axis, flux
 from validation.mapping.wall_radius import interface_radius
 from validation.metrics.curved_section import curved_flow_rate
-from validation.reference.mesh.frame import frame
+from validation.reference.mesh.checks import lumen_grid, plane_flow_rate
+from validation.reference.mesh.model import frame
 
 COARSE = Tube(sectors=12, rings=4, stacks=10, layers=2)
 KINDS = [

@@ -23,8 +23,7 @@ from hypothesis import strategies as st
 from cases.fields import FIELDS
 from cases.results.metric_row import COLUMNS, metric_row
 from validation.metrics import rows as metrics
-from validation.metrics.phase_lag import phase_lag
-from validation.metrics.quantities import CYCLE_QUANTITIES
+from validation.metrics.quantities import CYCLE_QUANTITIES, phase_lag
 from validation.metrics.rows import to_frame
 
 AFFECTED = {
@@ -272,7 +271,7 @@ def test_no_phase_lag_without_a_whole_cycle():
 def test_table_has_the_columns_in_their_order():
     table = to_frame(rows_of(two_models()))
     assert list(table.columns) == COLUMNS == [
-        "case", "variant", "quantity", "statistic", "i", "j", "t_s",
+        "case", "variant", "quantity", "statistic", "inflow", "i", "j", "t_s",
         "rom", "reference", "error", "unit", "band", "status",
     ]  # fmt: skip
     assert table["i"].max() <= N_X

@@ -8,12 +8,12 @@ from small_case import RUNS
 from tube_plot import write_tube
 from tubes import Tube
 
-from cases.sections.case import RecordFile
+from cases.sections.references.febio import RecordFile
 from febio_io.errors import FebioFileError, FebioFormatError
 from febio_io.xplt import open_plot
 from validation.errors import UnusableReferenceError
 from validation.reference.febio.records import account_of_record
-from validation.reference.mesh.frame import frame
+from validation.reference.mesh.model import frame
 
 TUBE = Tube(sectors=6, rings=2, stacks=3, layers=1)
 TIMES = (0.0, 0.25, 0.5)

@@ -33,13 +33,13 @@ def recorded(folder, failing=()):
 
 
 def of(found, output, name):
-    return [row[name] for row in found if row["output"] == output]
+    return [getattr(row, name) for row in found if row.output == output]
 
 
 @pytest.mark.parametrize("failing", [(), (0, 5, 6, 100)])
 def test_indices_of_an_additive_function(tmp_path, failing):
     found = sensitivity(recorded(tmp_path, failing), tmp_path)
-    assert [row["parameter"] for row in found] == list(PARAMETERS) * 3
+    assert [row.parameter for row in found] == list(PARAMETERS) * 3
     for name in ("S1", "ST"):
         indices = np.array(of(found, "flow_amplitude", name))
         intervals = np.array(of(found, "flow_amplitude", f"{name}_conf"))

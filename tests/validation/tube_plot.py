@@ -11,7 +11,7 @@ from validation.mapping.elements import HEXAHEDRON, TETRAHEDRON, WEDGE
 from validation.mapping.interpolation import Topology
 from validation.mapping.mesh import padded
 from validation.mapping.pressure import element_centres
-from validation.reference.mesh.frame import frame
+from validation.reference.mesh.model import frame
 
 WRITER = Path(__file__).parents[1] / "febio_io/xplt_writer.py"
 FEBIO_TYPE = {HEXAHEDRON: 0, WEDGE: 1, TETRAHEDRON: 2}

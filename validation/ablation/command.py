@@ -17,7 +17,8 @@ from rich.table import Table
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile, load_case_file
 from cases.results.ablation import MEASURES, AblationRow
-from cases.sections.case import Case, LocalCalcification
+from cases.sections.calcification import LocalCalcification
+from cases.sections.case import Case
 from cases.shell.command import COMPLETE, concluded
 from cases.shell.terminal import page
 from cases.shell.whole import write_text, writing

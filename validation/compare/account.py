@@ -6,10 +6,11 @@ from cases.reading.case_file import CaseFile
 from cases.results.provenance import DeclaredBand, Provenance
 from cases.sections.case import Case
 from cases.sections.compare import Band
+from cases.sections.doubts import doubts_of
 from solver.case.locality import locality_warning
 from solver.case.periodicity import periodicity_warning
 from validation.compare.comparison import VariantRun
-from validation.metrics.bootstrap import SEED
+from validation.metrics.confidence import SEED
 from validation.reference.alignment import WHOLE
 from validation.runs.instants import nearest_states, wanted_instants
 from validation.runs.provenance import provenance
@@ -29,6 +30,8 @@ def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
             f"{name}: pressure and flow rate of the reduced model change by at most "
             f"{run.rom.cycle_change:.1e} (relative) from the start to the end of the last cycle"
         )
+    for run in runs.values():
+        notes += [] if run.sources is None else run.sources.notes
     stated = ", ".join(f"{value:g}" for value in sorted({run.case.blood.viscosity for run in runs.values()}))
     notes.append(
         f"viscosity of the reduced model: {stated} Pa s; the plot file does not state the reference's"
@@ -41,6 +44,7 @@ def warnings_of(runs: Mapping[str, VariantRun]) -> list[str]:
     found = []
     for name, run in runs.items():
         alignment, times = run.reference.alignment, run.reference.alignment.cycle_times
+        found += [f"{name}: {doubt}" for doubt in doubts_of(run.case)]
         found += [f"{name}: {note}" for note in run.reference.notes if "cut off" in note]
         found += [f"{name}: {warning}" for warning in run.reference.warnings]
         if alignment.coverage < WHOLE:
@@ -69,7 +73,7 @@ def described(
     """Provenance of a finished comparison, with notes and warnings."""
     inputs = [path for case in file.variants.values() for path in case.input_files]
     stated = {
-        "seeds": {"bootstrap": SEED},
+        "seeds": {"bootstrap": SEED} | _seeds_of_inputs(file.variants),
         "wall_times_s": wall_times,
         "notes": [*notes, *notes_of(runs)],
         "warnings": warnings_of(runs),
@@ -80,6 +84,15 @@ def described(
         "bands": declared_bands(file.variants),
     }
     return Provenance.model_validate(provenance(file.path, inputs, command) | stated, strict=False)
+
+
+def _seeds_of_inputs(cases: Mapping[str, Case]) -> dict[str, int]:
+    """Seeds of the samples of uncertain inputs, by variant."""
+    return {
+        f"uncertainty of {name}": case.uncertainty.seed
+        for name, case in cases.items()
+        if case.uncertainty is not None and case.uncertainty.method == "latin_hypercube"
+    }
 
 
 def declared_bands(cases: Mapping[str, Case]) -> list[DeclaredBand]:

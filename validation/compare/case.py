@@ -3,7 +3,7 @@
 import json
 from collections.abc import Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +12,15 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
+from cases.reading.template import load_template
 from cases.results.comparison_file import PROFILE_ERROR_CURVE
 from cases.results.metric_row import MetricRow, Status
 from solver.case.model import inlet_signal
 from validation.compare.account import described
+from validation.compare.budget.inputs import input_uncertainty
+from validation.compare.budget.judged import judged_quantities
+from validation.compare.budget.parts import VARIABLE, budget_array, budget_rows, budgets_of
+from validation.compare.budget.sources import Sources
 from validation.compare.comparison import (
     VariantRun,
     at_common_instants,
@@ -39,7 +44,8 @@ from validation.metrics.rows import Models, models_of
 from validation.reference.generated import check_computed, check_stated
 from validation.runs.cache import Cache
 from validation.runs.output import check_target, result_directory, write_json, write_metrics
-from validation.runs.variants import Watch, align_variants, run_variants, watching
+from validation.runs.reduced_model import ReducedModelRun
+from validation.runs.variants import Watch, align_variants, resolved, run_variants, watching
 
 VERDICTS: tuple[Status, ...] = ("OK", "FAIL", "MISSING")
 
@@ -63,6 +69,42 @@ def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any])
         *metrics.inflow_rows(models, run.reference.checks, prescribed_inflow(run)),
         *metrics.cost_rows(models, run.rom.description, run.reference.description),
     ]
+
+
+def matched_rows(models: Models, matched: ReducedModelRun) -> list[MetricRow]:
+    """Rows of all cells and states, and of the cycle, with the inflow of the 3D reference."""
+    fields = matched.fields.assign_coords(time=models.rom["time"])
+    driven = replace(models, rom=fields)
+    rows = [*metrics.pooled_rows(driven), *metrics.cycle_rows(driven)]
+    return [replace(row, inflow="matched") for row in rows]
+
+
+def uncertain_inputs(file: CaseFile, name: str, run: VariantRun, watch: Watch) -> Mapping[str, float] | None:
+    """By quantity, what uncertain inputs leave open; None where the case says nothing of them."""
+    if run.case.uncertainty is None:
+        return None
+    with watch.step(f"{name}: uncertain inputs"):
+        return input_uncertainty(
+            load_template(file.path, name),
+            run.case,
+            run.reference.alignment.rom_times,
+            judged_quantities(),
+            watch.cache,
+            watch.remarks.append,
+        )
+
+
+def source_rows(
+    models: Models, sources: Sources | None, inputs: Mapping[str, float] | None, both: xr.Dataset
+) -> list[MetricRow]:
+    """Rows of what errors owe to what; the budget is added to the dataset of ``both`` models."""
+    if sources is None:
+        both[VARIABLE] = budget_array({})
+        return []
+    budgets = budgets_of(models, sources, inputs)
+    both[VARIABLE] = budget_array(budgets)
+    matched = [] if sources.matched is None else matched_rows(models, sources.matched)
+    return [*matched, *budget_rows(models, budgets)]
 
 
 def prescribed_inflow(run: VariantRun) -> Floats | None:
@@ -101,9 +143,10 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
         For input that is wrong; ``target`` is then as it was.
     """
     check_stated(file)
-    check_variants(file.variants)
     check_computed(file.path, file.variants)
     with watching(cache) as watch, result_directory(target) as directory:
+        file = replace(file, variants=resolved(file.variants, watch))
+        check_variants(file.variants)
         rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):
             write_metrics(directory, metrics.to_frame(rows))
@@ -131,10 +174,12 @@ def _compared(
     ):
         for name, run in run_variants(file.variants, alignments, watch, load_reports):
             both = both_models(run, times)
+            inputs = uncertain_inputs(file, name, run, watch)
             with watch.step("metrics"):
                 told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
                 models = models_of(file.name, name, both, about["period_s"], **told)
-                rows[name] = variant_rows(models, run, about)
+                owed = source_rows(models, run.sources, inputs, both)
+                rows[name] = [*variant_rows(models, run, about), *owed]
                 compared[name] = without_rays(models)
                 both[PROFILE_ERROR_CURVE] = error_curves(models, about)
             writing.append(writer.submit(_store, stored, name, both, watch))

@@ -11,9 +11,11 @@ import xarray as xr
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
 from cases.results.comparison_file import CALCIFIED, WALL_STIFFNESS, variable
-from cases.sections.case import Case, NoCalcification
+from cases.sections.calcification import NoCalcification
+from cases.sections.case import Case
 from solver.case.model import calcified_cells
 from solver.runs.result import CONVENTIONS
+from validation.compare.budget.sources import Sources
 from validation.errors import ValidationError
 from validation.reference.alignment import Alignment
 from validation.reference.kind import Reference
@@ -35,6 +37,7 @@ class VariantRun:
     case: Case
     rom: ReducedModelRun
     reference: Reference
+    sources: Sources | None = None  # of errors; None of a reference that states some values only
 
 
 def baselines_of(file: CaseFile) -> dict[str, str]:
@@ -135,6 +138,7 @@ def without_fields(run: VariantRun) -> VariantRun:
         run,
         rom=replace(run.rom, fields=nothing),
         reference=replace(run.reference, fields=nothing),
+        sources=run.sources and run.sources.without_fields(),
     )
 
 

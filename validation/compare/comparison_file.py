@@ -51,10 +51,11 @@ class ComparisonFile:
 
     def _define(self, dataset: xr.Dataset) -> None:
         for name, axis in dataset.coords.items():
+            words = axis.dtype.kind in "OU"
             self._file.createDimension(str(name), axis.size)
-            stored = self._file.createVariable(str(name), axis.dtype, (str(name),))
+            stored = self._file.createVariable(str(name), str if words else axis.dtype, (str(name),))
             stored.setncatts(axis.attrs)
-            stored[:] = axis.to_numpy()
+            stored[:] = axis.to_numpy().astype(object) if words else axis.to_numpy()
         for name, values in dataset.data_vars.items():
             stored = self._file.createVariable(
                 str(name),

@@ -4,7 +4,6 @@ from importlib import import_module
 from pathlib import Path
 
 from cases.shell.interrupts import interrupts_deferred
-from validation.errors import ValidationError
 
 
 def load_reports() -> None:
@@ -18,13 +17,9 @@ def write_reports(directory: Path) -> None:
 
     Raises
     ------
-    ValidationError
+    ReportError
         If the directory is not a finished comparison.
     """
     from reports.build import write_reports as write
-    from reports.errors import ReportError
 
-    try:
-        write(directory)
-    except ReportError as error:
-        raise ValidationError(str(error)) from error
+    write(directory)

@@ -83,13 +83,7 @@ def levels(case: Case, study: str) -> list[Case]:
 
 
 def refined(name: str, case: Case, study: str, progress: Progress | None = None) -> list[Refined]:
-    """Run a case on three levels and judge every watched number.
-
-    Raises
-    ------
-    SolverError
-        As the solver raises it.
-    """
+    """Run a case on three levels and judge every watched number."""
     numbers = [dict(_numbers(case, each, progress)) for each in levels(case, study)]
     return [
         Refined(name, study, quantity, where, values, convergence(*values))

@@ -1,11 +1,12 @@
 """The reduced model's assumptions where and when results are tabulated, and against the pulse."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from cases.results.metric_row import MetricRow, metric_row
+from cases.results.metric_row import MetricRow
 from validation.metrics.rows import Models
 
 BY_SECTION = ("axis_velocity_spread", "section_pressure_range")
@@ -39,12 +40,4 @@ def _pressure_over_pulse(models: Models) -> MetricRow:
         largest = float(fields["section_pressure_range"].max())
         shares.append(largest / pulse if pulse else None)
     rom, reference = shares
-    return metric_row(
-        models.case,
-        models.variant,
-        "section_pressure_range",
-        "over_pulse",
-        rom=rom,
-        reference=reference,
-        unit="1",
-    )
+    return replace(models.row("section_pressure_range", "over_pulse", rom=rom, reference=reference), unit="1")

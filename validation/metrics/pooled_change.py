@@ -1,6 +1,7 @@
 """What calcification changes, over all cells and instants: in 2D, in 3D, and how far they are apart."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,15 +18,7 @@ def without_rays(models: Models) -> Models:
         fields = getattr(models, side)
         names = [name for name in tabulated() if name in fields]
         kept[side] = fields[names].drop_vars("y", errors="ignore")
-    return Models(
-        models.case,
-        models.variant,
-        kept["rom"],
-        kept["reference"],
-        models.period,
-        models.sparse,
-        models.stated,
-    )
+    return replace(models, **kept)
 
 
 def pooled_change_rows(variants: Mapping[str, Models], baselines: Mapping[str, str]) -> Iterator[MetricRow]:

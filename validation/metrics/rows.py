@@ -14,8 +14,7 @@ from cases.quantities import of_cycle, pooled, reads, statistics_of, tabulated
 from cases.results.comparison_file import MODELS, variable
 from cases.results.metric_row import COLUMNS, MetricRow, metric_row
 from cases.statistics import statistic_of
-from validation.metrics.phase_lag import phase_lag
-from validation.metrics.quantities import CYCLE_QUANTITIES, DERIVED_QUANTITIES
+from validation.metrics.quantities import CYCLE_QUANTITIES, phase_lag, values_of
 from validation.metrics.statistics import EXTREMES, relative_error, statistic_value
 
 DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")
@@ -43,11 +42,7 @@ class Models:
 
     def pair(self, quantity: str) -> tuple[Floats, Floats]:
         """Values of a quantity in both models, float64."""
-        if quantity in DERIVED_QUANTITIES:
-            derive = DERIVED_QUANTITIES[quantity]
-            return derive(self.rom), derive(self.reference)
-        rom, reference = self.rom[quantity], self.reference[quantity]
-        return rom.to_numpy().astype(float), reference.to_numpy().astype(float)
+        return values_of(quantity, self.rom), values_of(quantity, self.reference)
 
     def statistic(self, name: str, rom: Floats, reference: Floats) -> float | None:
         """Value of a statistic over all entries that the reference states; None where it has no meaning."""
@@ -102,40 +97,30 @@ def value_rows(models: Models, cells: tuple[Floats, Floats], times: Floats) -> I
     states = [int(np.argmin(np.abs(models.rom["time"].to_numpy() - t))) for t in times]
     for quantity in tabulated():
         rom, reference = models.pair(quantity)
-        rows_j = _rows_of(quantity, cells)
-        for i in cells[0]:
-            for j in rows_j:
-                for t, n in zip(times, states, strict=True):
-                    at = (n, i - 1) if j is None else (n, i - 1, j - 1)
-                    yield models.row(
-                        quantity,
-                        "value",
-                        i=int(i),
-                        j=None if j is None else int(j),
-                        t_s=float(t),
-                        rom=float(rom[at]),
-                        reference=_number(reference[at]),
-                        error=_single(rom[at], reference[at]),
-                    )
+        for place, at in _cells_of(quantity, cells):
+            for t, ours, theirs in zip(times, rom[at][states], reference[at][states], strict=True):
+                both = {"rom": float(ours), "reference": _number(theirs)}
+                error = _single(ours, theirs)
+                yield models.row(quantity, "value", **place, t_s=float(t), **both, error=error)
 
 
-def _rows_of(quantity: str, cells: tuple[Floats, Floats]) -> list[Any]:
-    """Chosen rows j of a quantity; one None for a quantity of whole sections."""
-    return list(cells[1]) if "phi" in FIELDS[quantity].dims else [None]
+def _cells_of(quantity: str, cells: tuple[Floats, Floats]) -> Iterator[tuple[dict[str, Any], Any]]:
+    """Chosen cells of a quantity, or sections of one of whole ones: as a row names them, and their index."""
+    by_row = "phi" in FIELDS[quantity].dims
+    for i in cells[0]:
+        for j in cells[1] if by_row else (None,):
+            at = np.s_[:, i - 1] if j is None else np.s_[:, i - 1, j - 1]
+            yield {"i": int(i), "j": None if j is None else int(j)}, at
 
 
 def cycle_error_rows(models: Models, cells: tuple[Floats, Floats]) -> Iterator[MetricRow]:
     """Errors over the cycle at each chosen cell."""
     for quantity in pooled():
         rom, reference = models.pair(quantity)
-        rows_j = _rows_of(quantity, cells)
-        for i in cells[0]:
-            for j in rows_j:
-                at = np.s_[:, i - 1] if j is None else np.s_[:, i - 1, j - 1]
-                where = {"i": int(i), "j": None if j is None else int(j)}
-                for statistic in ("rms_error", "max_error", *EXTREMES):
-                    error = models.statistic(statistic, rom[at], reference[at])
-                    yield models.row(quantity, statistic, error=error, **where)
+        for place, at in _cells_of(quantity, cells):
+            for statistic in ("rms_error", "max_error", *EXTREMES):
+                error = models.statistic(statistic, rom[at], reference[at])
+                yield models.row(quantity, statistic, error=error, **place)
 
 
 def pooled_rows(models: Models) -> Iterator[MetricRow]:
@@ -241,13 +226,7 @@ def inflow_rows(models: Models, checks: xr.Dataset, prescribed: Floats | None) -
 
 
 def cost_rows(models: Models, rom: dict[str, Any], reference: dict[str, Any]) -> Iterator[MetricRow]:
-    """Tell what a simulation took, where its log does; the reduced model's wall times differ from run to run.
-
-    Parameters
-    ----------
-    rom, reference : dict
-        Descriptions of both models.
-    """
+    """Tell what a simulation took, where its log does; the 2D model's wall times differ from run to run."""
     cost = reference.get("cost")
     if cost is None:
         return
@@ -269,7 +248,10 @@ def change_rows(rows: list[MetricRow], baselines: Mapping[str, str]) -> Iterator
     kept = [
         row
         for row in rows
-        if row.statistic in ("value", "cycle") and row.rom is not None and row.quantity not in DOMINANCE
+        if row.statistic in ("value", "cycle")
+        and not row.inflow
+        and row.rom is not None
+        and row.quantity not in DOMINANCE
     ]
     known = {(r.variant, r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in kept}
     for row in kept:

@@ -4,9 +4,9 @@ import hashlib
 import json
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from pydantic import BaseModel
@@ -15,14 +15,31 @@ from cases.sections.case import Case
 from validation.errors import ValidationError
 from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
+from validation.reference.direction import inflow_sign
 from validation.reference.kind import Progress, Reference, ReferenceKind
 from validation.runs.cache import Cache, Entry
 from validation.runs.provenance import checksum, shown_path
 from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
 from validation.runs.sources import Kind, code_digest
 
-T = TypeVar("T", ReducedModelRun, Reference)
+
+class _Described(Protocol):
+    """A result that says of itself what it is."""
+
+    @property
+    def description(self) -> dict[str, Any]: ...
+
+
+T = TypeVar("T", bound=_Described)
 Remark = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Some numbers that took long to find, as JSON holds them, and what to say of finding them."""
+
+    values: dict[str, Any]
+    description: dict[str, Any] = field(default_factory=dict)
 
 
 def canonical(value: Any) -> Any:
@@ -44,7 +61,7 @@ def canonical(value: Any) -> Any:
     if isinstance(value, BaseModel):
         return {name: canonical(getattr(value, name)) for name in type(value).model_fields}
     if is_dataclass(value):
-        return {field.name: canonical(getattr(value, field.name)) for field in fields(value)}
+        return {part.name: canonical(getattr(value, part.name)) for part in fields(value)}
     if isinstance(value, Mapping):
         return {str(name): canonical(each) for name, each in value.items()}
     if isinstance(value, list | tuple):
@@ -59,11 +76,11 @@ def key_of(kind: Kind, parts: Mapping[str, Any]) -> str:
 
 
 def rom_key(case: Case, alignment: Alignment, rays: Rays) -> str:
-    """Key of a run of the reduced model: everything but titles, reference, cells, instants and bands."""
+    """Key of a run of the reduced model: all but titles, reference, uncertainty, cells, instants, bands."""
     model = {
         name: getattr(case, name)
         for name in type(case).model_fields
-        if name not in {"title", "reference", "compare"}
+        if name not in {"title", "reference", "compare", "uncertainty"}
     }
     return key_of("reduced model", {"case": model, "alignment": alignment, "rays": rays})
 
@@ -75,7 +92,7 @@ def reference_key(case: Case, alignment: Alignment, rays: Rays) -> str:
         "files": [shown_path(path) for path in case.input_files],
         "geometry": case.geometry,
         "calcification": case.calcification,
-        "inlet": case.inlet,
+        "inlet": {"period": case.inlet.period, "sign": inflow_sign(case, alignment)},
         "cells": case.compare.cells,
         "alignment": alignment,
         "rays": rays,
@@ -118,7 +135,7 @@ def cached_reference(
         }
         return Entry(datasets, facts)
 
-    return _cached(
+    return cached(
         store,
         lambda: reference_key(case, alignment, rays),
         lambda: kind.read(case, rays, progress, alignment),
@@ -150,7 +167,7 @@ def cached_rom(
         datasets = {"fields": found.fields, "wall": found.stiffness.to_dataset(name="wall_stiffness")}
         return Entry(datasets, {"cycle_change": found.cycle_change, "description": found.description})
 
-    return _cached(
+    return cached(
         store,
         lambda: rom_key(case, alignment, rays),
         computed,
@@ -160,7 +177,21 @@ def cached_rom(
     )
 
 
-def _cached(
+def cached_numbers(
+    store: Cache | None, key: Callable[[], str], compute: Callable[[], Numbers], remark: Remark
+) -> Numbers:
+    """Compute some numbers, or take them from the cache."""
+    return cached(
+        store,
+        key,
+        compute,
+        lambda found: Entry({}, {"values": found.values, "description": found.description}),
+        lambda entry: Numbers(entry.facts["values"], entry.facts["description"]),
+        remark,
+    )
+
+
+def cached(
     store: Cache | None,
     key: Callable[[], str],
     compute: Callable[[], T],

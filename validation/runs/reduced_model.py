@@ -8,8 +8,9 @@ import numpy as np
 import xarray as xr
 
 from cases.arrays import Floats
-from cases.sections.case import Case, MembraneWall
+from cases.sections.case import Case
 from cases.sections.solver import SemiImplicitSolver
+from cases.sections.wall import MembraneWall
 from solver.case.model import two_modes_of
 from solver.case.periodicity import cycle_change
 from solver.case.run import run_case
@@ -119,7 +120,7 @@ def _power(values: dict[str, Floats], rays: Rays) -> dict[str, Floats]:
 
 def _two_modes(case: Case, kept: xr.Dataset, rays: Rays) -> dict[str, Floats]:
     """v_x, D and B of profiles of two modes, and the exponent of the closest profile that has one."""
-    modes = two_modes_of(case.solver) if isinstance(case.solver, SemiImplicitSolver) else None
+    modes = two_modes_of(case.solver)
     if modes is None:
         raise ValueError("a run without exponents of a case without two modes")
     d, bend = kept["axis_velocity"].to_numpy(), kept["profile_bend"].to_numpy()

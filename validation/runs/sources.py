@@ -3,13 +3,22 @@
 from functools import cache
 from typing import Literal
 
-from solver.sources import ROOT, sources_digest
+from solver.kernel_cache import ROOT, sources_digest
 
-Kind = Literal["reduced model", "reference", "sweep", "tables"]
+Kind = Literal["reduced model", "reference", "budget", "sweep", "tables", "input uncertainty"]
 
 LIBRARIES = ("numba", "numpy", "scipy", "xarray")
 
-CASE = ("cases/arrays.py", "cases/errors.py", "cases/fields.py", "cases/sections", "cases/values")
+CASE = (
+    "cases/arrays.py",
+    "cases/errors.py",
+    "cases/fields.py",
+    "cases/quantities.py",
+    "cases/sections",
+    "cases/shell/errors.py",
+    "cases/statistics.py",
+    "cases/values",
+)
 SOLVER = (
     "solver/errors.py",
     "solver/geometry",
@@ -18,7 +27,6 @@ SOLVER = (
     "solver/marching",
     "solver/model",
     "solver/schemes",
-    "solver/sources.py",
     "solver/wall",
 )
 CELLS = (
@@ -26,6 +34,7 @@ CELLS = (
     "validation/errors.py",
     "validation/mapping",
     "validation/reference/alignment.py",
+    "validation/reference/direction.py",
     "validation/reference/kind.py",
     "validation/runs/cache.py",
     "validation/runs/cached.py",
@@ -53,21 +62,49 @@ REFERENCE = (
 DETERMINANTS: dict[Kind, tuple[str, ...]] = {
     "reduced model": REDUCED_MODEL,
     "reference": REFERENCE,
+    "budget": (
+        *REDUCED_MODEL,
+        *REFERENCE,
+        "validation/compare/budget",
+        "validation/converge",
+        "validation/metrics/quantities.py",
+        "validation/metrics/statistics.py",
+        "validation/runs/instants.py",
+        "validation/runs/matched_inflow.py",
+        "validation/runs/sources.py",
+    ),
     "sweep": (
         *REDUCED_MODEL,
         *REFERENCE,
         "cases/reading",
+        "cases/results",
         "solver/runs/batch.py",
         "validation/ablation/ladder.py",
         "validation/metrics",
         "validation/runs/sources.py",
         "validation/sweep",
     ),
+    "input uncertainty": (
+        *REDUCED_MODEL,
+        "cases/reading",
+        "cases/results",
+        "solver/runs/batch.py",
+        "validation/compare/budget/inputs.py",
+        "validation/compare/budget/spread.py",
+        "validation/metrics/quantities.py",
+        "validation/runs/provenance.py",
+        "validation/runs/sources.py",
+        "validation/sweep/design.py",
+        "validation/sweep/display.py",
+        "validation/sweep/parameters.py",
+    ),
     "tables": (
         *SOLVER,
         "cases/arrays.py",
+        "cases/shell/errors.py",
         "reference_data/waveforms/thesis_inlet.csv",
         "validation/__init__.py",
+        "reports/figures/plots.py",
         "validation/tables",
     ),
 }
@@ -76,6 +113,6 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
 @cache
 def code_digest(kind: Kind) -> str:
     """Digest of the code that determines one kind of result, and of the libraries' versions."""
-    libraries = (*LIBRARIES, "pyvista", "vtk") if kind in ("reference", "sweep") else LIBRARIES
+    libraries = (*LIBRARIES, "pyvista", "vtk") if kind in ("reference", "budget", "sweep") else LIBRARIES
     sources = dict.fromkeys(DETERMINANTS[kind])
     return sources_digest((ROOT / source for source in sources), libraries)

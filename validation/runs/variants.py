@@ -11,9 +11,11 @@ from typing import Any
 from rich.progress import Progress as Display
 
 from cases.sections.case import Case
+from cases.sections.inlet import ReferenceInlet
 from cases.shell.terminal import progress
 from solver.case.model import grid_of
 from solver.errors import SolverError
+from validation.compare.budget.sources import Sources, sources_of
 from validation.compare.comparison import VariantRun
 from validation.errors import ValidationError
 from validation.mapping.rays import Rays, rays
@@ -22,6 +24,7 @@ from validation.reference.kind import Progress, Reference
 from validation.reference.kinds import kind_of
 from validation.runs.cache import Cache
 from validation.runs.cached import cached_reference, cached_rom
+from validation.runs.matched_inflow import with_inflow_of
 from validation.runs.reduced_model import ReducedModelRun
 
 WORKERS = 2  # computations at once: mapping and stepping release the interpreter's lock
@@ -109,14 +112,20 @@ def run_variants(
             name: pool.submit(_reduced_model, name, case, alignments[name], watch)
             for name, case in cases.items()
         }
+        sources = {
+            name: pool.submit(_sources, name, case, (roms[name], references[name]), watch)
+            for name, case in cases.items()
+        }
         meanwhile()
-        names: dict[Future[Any], str] = {part[name]: name for part in (references, roms) for name in cases}
+        parts = (references, roms, sources)
+        names: dict[Future[Any], str] = {part[name]: name for part in parts for name in cases}
         for future in as_completed(names):
             name = names.pop(future)
             future.result()
             del future  # and with it what it gave
             if name not in names.values():
-                yield name, VariantRun(cases[name], roms.pop(name).result(), references.pop(name).result())
+                both = roms.pop(name).result(), references.pop(name).result()
+                yield name, VariantRun(cases[name], *both, sources.pop(name).result())
     finally:
         watch.stop.set()
         pool.shutdown(wait=False, cancel_futures=True)
@@ -138,6 +147,38 @@ def _reduced_model(name: str, case: Case, alignment: Alignment, watch: Watch) ->
             return cached_rom(watch.cache, case, alignment, _points(case), progress, watch.remarks.append)
         except SolverError as error:
             raise ValidationError(f"variant {name!r}: {error}") from error
+
+
+def _sources(
+    name: str, case: Case, models: tuple[Future[ReducedModelRun], Future[Reference]], watch: Watch
+) -> Sources | None:
+    """Further runs of one variant, once both its models are there: they are ahead of it in the queue."""
+    rom, reference = models[0].result(), models[1].result()
+    if reference.sparse:
+        return None
+    with watch.step(f"{name}: sources of errors") as progress:
+        try:
+            return sources_of(name, case, (rom, reference), watch.cache, progress, watch.remarks.append)
+        except SolverError as error:
+            raise ValidationError(f"variant {name!r}: with the inflow of 3D: {error}") from error
+
+
+def resolved(cases: Mapping[str, Case], watch: Watch) -> dict[str, Case]:
+    """Cases with ``inlet.kind: reference`` with the inflow of their reference instead, others as they are.
+
+    Raises
+    ------
+    ValidationError
+        If the reference tells no inflow; else as the kind of reference raises.
+    """
+    found = dict(cases)
+    for name, case in cases.items():
+        if isinstance(case.inlet, ReferenceInlet):
+            alignment = kind_of(name, case).align(case)
+            driven = with_inflow_of(case, _reference(name, case, alignment, watch))
+            compare = driven.compare.model_copy(update={"matched_inflow": True})
+            found[name] = driven.model_copy(update={"compare": compare})
+    return found
 
 
 def _points(case: Case) -> Rays:

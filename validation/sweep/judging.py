@@ -119,13 +119,7 @@ def _unlimited(quantity: str) -> Band:
 def standards(
     cases: Mapping[str, Case], against: Against, bands: Iterable[Band], cache: Cache | None, watch: Watcher
 ) -> dict[str, Standard]:
-    """Return what each variant's samples are judged against; references are read here, once.
-
-    Raises
-    ------
-    ValidationError, FebioError
-        As the kind of reference raises them.
-    """
+    """Return what each variant's samples are judged against; references are read here, once."""
     if against != "reference":
         return {name: Standard(against, name) for name in cases}
     quantities = {band.quantity for band in bands}

@@ -10,7 +10,8 @@ import xarray as xr
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
 from cases.results.sweep import KeptOutput, OutputBand
-from cases.sections.case import Case, LocalCalcification, NoCalcification
+from cases.sections.calcification import LocalCalcification, NoCalcification
+from cases.sections.case import Case
 from cases.sections.compare import Band
 from cases.statistics import statistic_of
 from validation.metrics.quantities import CYCLE_QUANTITIES

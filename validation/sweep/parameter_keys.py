@@ -11,8 +11,7 @@ from cases.reading.yaml_nodes import Node
 from cases.values.kinds import refused
 from cases.values.units import DIMENSION_OF_UNIT, parse_quantity, parse_ratio
 from cases.values.wording import but_allowed, choices, nearest, not_one_of, shown, unknown_key
-from validation.sweep.display import display_of
-from validation.sweep.labels import label_of
+from validation.sweep.display import display_of, label_of
 from validation.sweep.parameters import MOST_VALUES, NEEDED, OPTIONAL, SPREAD, Parameter
 
 FORMS = "a list of values, {start, stop, count} or {distribution: …}"

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from scipy import stats
@@ -72,30 +73,27 @@ class Parameter:
         if self.values is not None:
             places = np.minimum((share * self.values.size).astype(int), self.values.size - 1)
             return np.asarray(self.values[places])
-        return np.asarray(np.clip(QUANTILES[self.kind](self.numbers, share), *self.limits))
+        return np.asarray(np.clip(DISTRIBUTIONS[self.kind](self.numbers).ppf(share), *self.limits))
 
 
-def _uniform(n: Mapping[str, float], share: Floats) -> Floats:
-    return np.asarray(stats.uniform(n["low"], n["high"] - n["low"]).ppf(share))
-
-
-def _loguniform(n: Mapping[str, float], share: Floats) -> Floats:
-    return np.asarray(stats.loguniform(n["low"], n["high"]).ppf(share))
-
-
-def _triangular(n: Mapping[str, float], share: Floats) -> Floats:
+def _triangular(n: Mapping[str, float]) -> Any:
     width = n["high"] - n["low"]
-    return np.asarray(stats.triang((n["mode"] - n["low"]) / width, n["low"], width).ppf(share))
+    return stats.triang((n["mode"] - n["low"]) / width, n["low"], width)
 
 
-def _normal(n: Mapping[str, float], share: Floats) -> Floats:
+def _normal(n: Mapping[str, float]) -> Any:
     mean, spread = n["mean"], n[SPREAD]
     low, high = ((n.get(name, end) - mean) / spread for name, end in (("low", -np.inf), ("high", np.inf)))
-    return np.asarray(stats.truncnorm(low, high, mean, spread).ppf(share))
+    return stats.truncnorm(low, high, mean, spread)
 
 
-QUANTILES: Mapping[str, Callable[[Mapping[str, float], Floats], Floats]] = MappingProxyType(
-    {"uniform": _uniform, "loguniform": _loguniform, "triangular": _triangular, "normal": _normal}
+DISTRIBUTIONS: Mapping[str, Callable[[Mapping[str, float]], Any]] = MappingProxyType(
+    {
+        "uniform": lambda n: stats.uniform(n["low"], n["high"] - n["low"]),
+        "loguniform": lambda n: stats.loguniform(n["low"], n["high"]),
+        "triangular": _triangular,
+        "normal": _normal,
+    }
 )
 
 

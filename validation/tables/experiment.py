@@ -84,9 +84,11 @@ class Experiment:
     draw: Callable[[Results, Path], list[Path]] | None = None
 
 
-def within(case: str, quantity: str, unit: str, ours: float, thesis: float, tolerance: float) -> Check:
-    """Check with a relative tolerance."""
-    allowed = tolerance * abs(thesis)
+def within(
+    case: str, quantity: str, unit: str, ours: float, thesis: float, tolerance: float, rounding: float = 0.0
+) -> Check:
+    """Check with a relative tolerance beyond the rounding of what is printed."""
+    allowed = tolerance * abs(thesis) + rounding
     return Check(case, quantity, unit, ours, thesis, thesis - allowed, thesis + allowed)
 
 

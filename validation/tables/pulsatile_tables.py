@@ -84,19 +84,8 @@ def _sector_rows(results: Results) -> list[Check]:
         for cell in CELLS:
             ours = number(results["table 3.9"], _key(float(line["t_s"]), int(line["j"]), cell))
             thesis = float(line[f"i_{cell}"])
-            allowed = 0.005 * thesis + HALF_A_DIGIT
             case = f"j = {int(line['j'])}, t = {line['t_s']:.3f} s, i = {cell}"
-            rows.append(
-                Check(
-                    case,
-                    "sector flow rate",
-                    "cm^3/s",
-                    ours,
-                    thesis,
-                    thesis - allowed,
-                    thesis + allowed,
-                )
-            )
+            rows.append(within(case, "sector flow rate", "cm^3/s", ours, thesis, 0.005, HALF_A_DIGIT))
     return rows
 
 

@@ -128,31 +128,21 @@ def _entries(
     return [Entry(f"{prefix} {key}={size}", partial(compute, size), size <= quick) for size in sizes]
 
 
-def _table_3_1(n_x: int) -> Result:
-    return pressure_inlet(n_x, QUARTER_CM, 1e3)
-
-
 def _table_3_2(n_x: int) -> Result:
     return pressure_inlet(n_x, _five_cells(n_x), 1e4)
-
-
-def _table_3_3_quarter(n_x: int) -> Result:
-    return velocity_inlet(n_x, QUARTER_CM)
 
 
 def _table_3_3_five(n_x: int) -> Result:
     return velocity_inlet(n_x, _five_cells(n_x))
 
 
-def _table_3_4_half_pi(n_phi: int) -> Result:
-    return local_calcification(n_phi, np.pi / 2)
-
-
 def _table_3_4_three(n_phi: int) -> Result:
     return local_calcification(n_phi, 3 * 2 * np.pi / n_phi)
 
 
-ENTRIES_3_1 = _entries("table 3.1", "n_x", SIZES, _table_3_1, quick=120)
+ENTRIES_3_1 = _entries(
+    "table 3.1", "n_x", SIZES, partial(pressure_inlet, transition=QUARTER_CM, pressure=1e3), quick=120
+)
 ENTRIES_3_2 = _entries("table 3.2", "n_x", SIZES, _table_3_2, quick=90)
 
 ERRORS_3_1 = {
@@ -209,14 +199,18 @@ EXPERIMENTS = (
     Experiment(
         "3.3",
         "Axisymmetric calcification, velocity at the inlet",
-        _entries("table 3.3 quarter cm", "n_x", SIZES, _table_3_3_quarter, quick=240)
+        _entries(
+            "table 3.3 quarter cm", "n_x", SIZES, partial(velocity_inlet, transition=QUARTER_CM), quick=240
+        )
         + _entries("table 3.3 five cells", "n_x", SIZES, _table_3_3_five, quick=240),
         partial(_rows, "3_3", "n_x", ERRORS_3_3),
     ),
     Experiment(
         "3.4",
         "Local calcification, velocity at the inlet",
-        _entries("table 3.4 half pi", "n_phi", ROWS, _table_3_4_half_pi, quick=24)
+        _entries(
+            "table 3.4 half pi", "n_phi", ROWS, partial(local_calcification, transition=np.pi / 2), quick=24
+        )
         + _entries("table 3.4 three cells", "n_phi", ROWS, _table_3_4_three, quick=24),
         partial(_rows, "3_4", "n_phi", ERRORS_3_4),
     ),

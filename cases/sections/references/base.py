@@ -1,16 +1,53 @@
 """What every reference states, and what every one of a mesh states besides."""
 
+import math
 from pathlib import Path
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
 from cases.errors import QuantityError
 from cases.sections.base import Section
-from cases.sections.references.directions import Axis, Direction, Vector, components, direction
 from cases.values.kinds import Context, Length, Time, ValueKind, refused, words_of
 from cases.values.units import DIMENSIONS, parse_quantity
 from cases.values.wording import choices
+
+Axis = Literal["x", "y", "z"]
+Direction = Literal["x", "y", "z", "-x", "-y", "-z"]
+Vector = tuple[float, float, float]
+
+
+def direction(literal: object) -> ValueKind:
+    """Return the kind of directions: the names that a `Literal` lists, or three components."""
+    words = words_of(literal)
+    allowed = f"{choices(words)}, or three components, e.g. [0, 0.1, 1]"
+    items = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+
+    def parse(value: object, _context: Context | None) -> str | Vector:
+        if isinstance(value, str) and value in words:
+            return value
+        if isinstance(value, list | tuple) and len(value) == 3 and all(map(_is_number, value)) and any(value):
+            first, second, third = map(float, value)
+            return first, second, third
+        raise refused(value, allowed)
+
+    return ValueKind(parse, allowed, {"anyOf": [{"enum": list(words)}, items]})
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def components(direction: str | Vector) -> Vector:
+    """Return the components of a direction of length 1, stated by name ("x", "-y") or by components."""
+    if isinstance(direction, str):
+        sign = -1.0 if direction.startswith("-") else 1.0
+        x, y, z = (sign * float(name == direction.removeprefix("-")) for name in "xyz")
+        return x, y, z
+    size = math.hypot(*direction)
+    x, y, z = (part / size for part in direction)
+    return x, y, z
+
 
 NEXT_AXIS: dict[str, Direction] = {"x": "y", "y": "z", "z": "x"}
 ACROSS = 1e-6  # sine of the least angle between the axis and φ = 0
@@ -64,6 +101,11 @@ class ReferenceSection(Section):
     @property
     def files(self) -> tuple[Path, ...]:
         """Absolute paths of the files that hold the results."""
+        return ()
+
+    @property
+    def coarser(self) -> tuple["ReferenceSection", ...]:
+        """What is stated of the same simulation on coarser meshes, from the coarsest on."""
         return ()
 
     @property

@@ -10,6 +10,7 @@ from cases.sections.base import Section
 from cases.sections.references.base import MeshReference
 from cases.values.kinds import (
     Context,
+    ExistingFile,
     RunFile,
     Switch,
     TimeStep,
@@ -96,6 +97,11 @@ class RecordFile(Section):
         return names if names is None else distinct(names)
 
 
+def _must_exist(info: "ValidationInfo[Context | None]") -> bool:
+    """Whether the files of the run must be there: not where they are made from the case."""
+    return info.data.get("generate") is None and (info.context is None or info.context.results_exist)
+
+
 class FebioReference(MeshReference):
     """A plot file of FEBio.
 
@@ -109,6 +115,9 @@ class FebioReference(MeshReference):
         Names of the domains; found from the materials if None.
     calcified : tuple of str or None
         Names of those domains of the wall that are calcified; their extent is compared with the case's.
+    levels : tuple of pathlib.Path
+        Absolute paths of plot files of the same run on coarser meshes, from the coarsest on: what the mesh of
+        `plot_file` owes to its size is found from them.
     log : pathlib.Path or None
         Absolute path of the run's log, which tells what the run cost and how it ended.
     data_records : tuple of RecordFile
@@ -121,6 +130,7 @@ class FebioReference(MeshReference):
     lumen: tuple[Words, ...] | None = None
     wall: tuple[Words, ...] | None = None
     calcified: tuple[Words, ...] | None = None
+    levels: tuple[ExistingFile, ...] = ()
     log: RunFile | None = None
     data_records: tuple[RecordFile, ...] = ()
 
@@ -128,12 +138,23 @@ class FebioReference(MeshReference):
     def files(self) -> tuple[Path, ...]:
         """Absolute paths of the run's files."""
         log = () if self.log is None else (self.log,)
-        return (self.plot_file, *log, *(record.file for record in self.data_records))
+        return (self.plot_file, *self.levels, *log, *(record.file for record in self.data_records))
+
+    @property
+    def coarser(self) -> tuple["FebioReference", ...]:
+        """The same reference on each coarser mesh, without the log and the records of its own run."""
+        apart = {"generate": None, "levels": (), "log": None, "data_records": ()}
+        return tuple(self.model_copy(update={**apart, "plot_file": level}) for level in self.levels)
+
+    @field_validator("levels")
+    @classmethod
+    def _levels(cls, paths: tuple[Path, ...]) -> tuple[Path, ...]:
+        return distinct(paths)
 
     @field_validator("plot_file", "log", mode="before")
     @classmethod
     def _is_there(cls, stated: object, info: "ValidationInfo[Context | None]") -> object:
-        if stated is not None and info.data.get("generate") is None:
+        if stated is not None and _must_exist(info):
             existing_file(stated, info.context)
         return stated
 
@@ -147,7 +168,7 @@ class FebioReference(MeshReference):
     @field_validator("data_records", mode="before")
     @classmethod
     def _are_there(cls, stated: object, info: "ValidationInfo[Context | None]") -> object:
-        records = stated if isinstance(stated, list) and info.data.get("generate") is None else []
+        records = stated if isinstance(stated, list) and _must_exist(info) else []
         for place, record in enumerate(records):
             if isinstance(record, dict) and "file" in record:
                 try:

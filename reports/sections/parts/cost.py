@@ -1,7 +1,7 @@
 """Cost of the 3D simulation beside the 2D model, and whether its own records confirm its plot file."""
 
 from cases.results.provenance import ReducedModelSettings, SimulationCost
-from reports.blocks import Column, Table
+from reports.blocks import Column, Table, numbers, prose
 from reports.result.load import Comparison
 from reports.wording.numbers import ABSENT, SPACE, rounded, with_unit
 
@@ -19,15 +19,9 @@ def cost_table(comparison: Comparison) -> Table | None:
         "wall time per simulated cycle over the same of 2D, whatever the machines.",
         (
             Column("variant"),
-            Column("wall time", "number", "3D"),
-            Column("simulated", "number", "3D"),
-            Column("steps", "number", "3D"),
-            Column("iterations", "number", "3D"),
-            Column("equations", "number", "3D"),
+            *numbers("wall time", "simulated", "steps", "iterations", "equations", group="3D"),
             Column("ended", "prose", "3D"),
-            Column("wall time", "number", "2D"),
-            Column("cycles", "number", "2D"),
-            Column("steps", "number", "2D"),
+            *numbers("wall time", "cycles", "steps", group="2D"),
             Column("3D over 2D", "number"),
         ),
         rows,
@@ -90,13 +84,6 @@ def records_table(comparison: Comparison) -> Table | None:
         "data-records",
         "Values that FEBio wrote as text during the run, beside those of its plot file: largest difference "
         f"over the largest value. Plot files are in single precision, about 6{SPACE}·{SPACE}10⁻⁸.",
-        (
-            Column("variant"),
-            Column("record", "prose"),
-            Column("columns", "prose"),
-            Column("instants", "number"),
-            Column("values", "number"),
-            Column("difference", "number"),
-        ),
+        (Column("variant"), *prose("record", "columns"), *numbers("instants", "values", "difference")),
         rows,
     )

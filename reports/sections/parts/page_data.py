@@ -1,14 +1,62 @@
-"""Data of several interactive pictures: both models over the cycle on all cells."""
+"""Data of interactive pictures: packed fields of both models on all cells, and all rows of metrics.json."""
 
+import base64
+import zlib
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
-from reports.html.packed import pack
+from cases.results.metric_row import MetricRow
+from cases.statistics import statistic_of
 from reports.result.load import Comparison
+from reports.result.metrics import Metrics
 from reports.wording.numbers import DIFFERENCE_UNITS
+from reports.wording.words import field_of, quantity_words, statistic_words
+
+LEVELS = 65534  # the largest whole number that stands for a value
+ABSENT = 65535  # stands for what is not finite
+
+
+@dataclass(frozen=True)
+class Packed:
+    """An array as text.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Of the array.
+    low, step : float
+        Value = low + step × whole number.
+    data : str
+        Base 64 of zlib of all low bytes, then all high bytes, of the whole numbers' differences along each
+        axis in turn (modulo 2¹⁶).
+    """
+
+    shape: tuple[int, ...]
+    low: float
+    step: float
+    data: str
+
+    def plain(self) -> dict[str, object]:
+        """As JSON."""
+        return asdict(self)
+
+
+def pack(values: Floats) -> Packed:
+    """Pack an array of any shape; the values come back to 1/131068 of their range."""
+    finite = np.isfinite(values)
+    low, high = (float(values[finite].min()), float(values[finite].max())) if finite.any() else (0.0, 0.0)
+    step = (high - low) / LEVELS or 1.0
+    whole = np.full(values.shape, ABSENT, dtype=np.uint16)
+    whole[finite] = np.round((values[finite] - low) / step).astype(np.uint16)
+    for axis in range(whole.ndim):
+        whole = np.diff(whole, axis=axis, prepend=np.uint16(0))
+    octets = (whole & 0xFF).astype(np.uint8).tobytes() + (whole >> 8).astype(np.uint8).tobytes()
+    return Packed(values.shape, low, step, base64.b64encode(zlib.compress(octets, 6)).decode())
+
 
 MODELS = ("reference", "rom")
 SHOWN = ("pressure", "radius", "sector_flow_rate", "profile_exponent", "section_flow_rate")
@@ -66,3 +114,44 @@ def _shown(field: Field, values: Floats) -> Floats:
     if field.name == "profile_exponent":
         shown = np.where(shown > LARGEST_EXPONENT, np.inf, shown)
     return shown
+
+
+_NUMBERS = ("i", "j", "t_s", "reference", "rom", "error", "band")
+
+
+def metric_columns(metrics: Metrics) -> dict[str, Any]:
+    """Return all rows by columns; words that occur often stand once."""
+    return {
+        "variant": _coded([row.variant for row in metrics.rows]),
+        "quantity": _coded([quantity_words(row.quantity) for row in metrics.rows]),
+        "statistic": _coded([_statistic(row) for row in metrics.rows]),
+        "status": _coded([row.status for row in metrics.rows]),
+        "unit": _coded([_display(row)[0] for row in metrics.rows]),
+        "relative": [statistic_of(row.statistic).relative for row in metrics.rows],
+        **{name: [_number(row, name) for row in metrics.rows] for name in _NUMBERS},
+    }
+
+
+def _statistic(row: MetricRow) -> str:
+    words = statistic_words(row.statistic)
+    return f"{words}, with the inflow of 3D" if row.inflow else words
+
+
+def _display(row: MetricRow) -> tuple[str, float]:
+    """Return the unit that people read a row's values in, and display over stored value."""
+    field = field_of(row.quantity, row.unit)
+    return (field.display_unit, field.display_factor) if row.unit == field.unit else (row.unit, 1.0)
+
+
+def _number(row: MetricRow, name: str) -> float | None:
+    value = getattr(row, name)
+    relative = name in ("error", "band") and statistic_of(row.statistic).relative
+    if name in ("reference", "rom", "error", "band") and value is not None and not relative:
+        value *= _display(row)[1]
+    return float(f"{value:.6g}") if isinstance(value, float) else value
+
+
+def _coded(words: list[str]) -> dict[str, list[Any]]:
+    names = list(dict.fromkeys(words))
+    number = {name: k for k, name in enumerate(names)}
+    return {"names": names, "rows": [number[word] for word in words]}

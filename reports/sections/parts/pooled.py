@@ -1,10 +1,10 @@
-"""The errors over all cells and states, a line for each quantity and variant."""
+"""Figures over all cells and states: errors, and how far changes are apart, a line a quantity and variant."""
 
 from cases.results.metric_row import MetricRow
-from reports.blocks import Column, Table
+from reports.blocks import Column, Table, numbers
 from reports.result.load import Comparison
 from reports.wording.numbers import ABSENT, DIFFERENCE_UNITS, SPACE, percent, rounded, unsigned, with_unit
-from reports.wording.words import place, quantity_words
+from reports.wording.words import baseline_words, place, quantity_words
 
 _STATISTICS = ("bias", "scatter", "rms_error", "max_error")
 _ABSOLUTE = "rms_difference"
@@ -43,12 +43,7 @@ def table(comparison: Comparison) -> Table | None:
         (
             Column("variant"),
             Column("quantity", "prose"),
-            Column("bias", "number"),
-            Column("its 95 %", "number"),
-            Column("scatter", "number"),
-            Column("RMS error", "number"),
-            Column("RMS 2D − 3D", "number"),
-            Column("largest error", "number"),
+            *numbers("bias", "its 95 %", "scatter", "RMS error", "RMS 2D − 3D", "largest error"),
             Column("found at"),
         ),
         rows,
@@ -88,3 +83,29 @@ def _interval(comparison: Comparison, variant: str, quantity: str) -> str:
     if low is None or high is None or low.error is None or high.error is None:
         return ABSENT
     return f"{percent(low.error).removesuffix(f'{SPACE}%')} … {percent(high.error)}"
+
+
+def change_apart(comparison: Comparison, changed: tuple[str, ...]) -> Table | None:
+    """Return the table, a line for each quantity and changed variant; None where nothing was scored."""
+    rows = []
+    for variant in changed:
+        for row in comparison.metrics.pooled("change_rms"):
+            if row.variant != variant:
+                continue
+            unit, factor = DIFFERENCE_UNITS.get(row.unit, (row.unit, 1.0))
+            sizes = (
+                with_unit(rounded(None if size is None else size * factor, 3), unit)
+                for size in (row.reference, row.rom)
+            )
+            rows.append((variant, quantity_words(row.quantity), *sizes, unsigned(percent(row.error, 0))))
+    if not rows:
+        return None
+    return Table(
+        "change-apart",
+        "Change by calcification over all cells and states: its RMS size in each model, and the RMS distance "
+        "of the two changes as a share of the 3D one. 0 % is the same change everywhere; 100 % is no better "
+        f"than to expect none (variant minus {baseline_words(comparison)}).",
+        (Column("variant"), Column("quantity", "prose"), *numbers("3D", "2D", "apart")),
+        tuple(rows),
+        rule_by=0,
+    )

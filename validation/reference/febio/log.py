@@ -26,13 +26,6 @@ class LogAccount:
 def account_of_log(path: Path, plot: Plot) -> LogAccount:
     """Read the log of the run that wrote a plot file.
 
-    Parameters
-    ----------
-    path : Path
-        The log.
-    plot : Plot
-        The open plot file.
-
     Returns
     -------
     LogAccount

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from cases.arrays import Floats
-from cases.sections.case import RecordFile
+from cases.sections.references.febio import RecordFile
 from febio_io.text.data_records import DataRecord, read_data_record
 from febio_io.xplt import Plot
 from validation.errors import UnusableReferenceError

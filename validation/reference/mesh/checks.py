@@ -1,17 +1,48 @@
 """Whether a 3D result is that of the case: length, radius, direction of flow, calcification, planes."""
 
 import numpy as np
+import pyvista as pv
 import xarray as xr
 
 from cases.arrays import Floats
 from cases.sections.case import Case
-from solver.case.model import inlet_signal
 from validation.errors import UnusableReferenceError
+from validation.mapping.elements import HEXAHEDRON, NODES, PYRAMID, TETRAHEDRON, WEDGE
+from validation.mapping.interpolation import Topology
 from validation.mapping.mesh import LumenMesh
-from validation.mapping.plane_section import lumen_grid, plane_flow_rate
 from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
+from validation.reference.direction import inflow_sign
 from validation.reference.mesh.model import MeshModel
+
+_VTK_TYPE = {HEXAHEDRON: 12, WEDGE: 13, TETRAHEDRON: 10, PYRAMID: 14}
+
+
+def lumen_grid(mesh: Topology) -> pv.UnstructuredGrid:
+    """Lumen elements as a VTK grid without coordinates yet (all zero)."""
+    counts = np.array([NODES[int(kind)] for kind in mesh.kinds])
+    cells = [np.append(count, nodes[:count]) for count, nodes in zip(counts, mesh.nodes, strict=True)]
+    types = np.array([_VTK_TYPE[int(kind)] for kind in mesh.kinds], dtype=np.uint8)
+    return pv.UnstructuredGrid(np.concatenate(cells), types, np.zeros((int(mesh.nodes.max()) + 1, 3)))
+
+
+def plane_flow_rate(grid: pv.UnstructuredGrid, points: Floats, velocity: Floats, x: float) -> float:
+    """Flow rate through the plane at x in the deformed lumen, m³/s.
+
+    Parameters
+    ----------
+    grid : pyvista.UnstructuredGrid
+        From :func:`lumen_grid`; its coordinates are overwritten.
+    points, velocity : ndarray (n_nodes, 3)
+        Deformed nodes, m, and nodal velocity, m/s, in the artery's frame.
+    x : float
+        m.
+    """
+    grid.points = points[: grid.n_points]
+    grid.point_data["v_x"] = velocity[: grid.n_points, 0]
+    cut = grid.slice(normal="x", origin=(x, 0.0, 0.0), generate_triangles=True)
+    return float(cut.integrate_data()["v_x"][0])
+
 
 RADIUS_TOLERANCE = 1e-2  # and the mean radius of its unloaded interface by this share
 LENGTH_TOLERANCE = 1e-3  # the mesh's length may differ from the case's by this share
@@ -49,11 +80,8 @@ def check_direction(inflow: Floats, alignment: Alignment, case: Case) -> None:
     alignment : Alignment
     case : Case
     """
-    if case.inlet.kind == "pressure":
-        return
-    prescribed = float(np.mean(inlet_signal(case)(alignment.cycle_times)))
     mean = float(np.mean(inflow))
-    if prescribed * mean < 0:
+    if inflow_sign(case, alignment) * mean < 0:
         raise UnusableReferenceError(
             f"blood flows against the inflow of the case ({mean:.3g} m³/s on average at "
             "reference.origin): reference.axis and origin must follow the flow"

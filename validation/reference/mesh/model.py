@@ -7,14 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from cases.arrays import Floats
-from cases.sections.references.base import MeshReference
-from cases.sections.references.directions import components
+from cases.sections.references.base import MeshReference, Vector, components
 from validation.errors import UnusableReferenceError
 from validation.mapping.interpolation import topology
 from validation.mapping.mesh import Block, LumenMesh, lumen_mesh, padded
 from validation.mapping.mirror import mirror
 from validation.mapping.pressure import recovery_operator
-from validation.reference.mesh.frame import frame
 from validation.reference.mesh.series import MeshSeries, MeshState, SeriesMesh
 
 
@@ -93,3 +91,43 @@ def _to_nodes(found: SeriesMesh, coordinates: Floats) -> Callable[[Floats], Floa
         return lambda values: values
     operator = recovery_operator(topology(*padded(found.lumen), len(coordinates)), coordinates)
     return lambda values: np.asarray(operator @ values)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where the artery lies.
+
+    Attributes
+    ----------
+    origin : ndarray (3,)
+        Centre of the inlet, m.
+    rotation : ndarray (3, 3)
+        Rows: unit vectors along the artery, towards φ = 0 and towards φ = π/2.
+    """
+
+    origin: Floats
+    rotation: Floats
+
+    def points(self, coordinates: Floats) -> Floats:
+        """Points (..., 3) of the reference in the artery's frame, m."""
+        return np.asarray((coordinates - self.origin) @ self.rotation.T)
+
+    def directions(self, parts: Floats) -> Floats:
+        """Components (..., 3) in the artery's frame."""
+        return np.asarray(parts @ self.rotation.T)
+
+
+def frame(axis: str | Vector, phi_zero: str | Vector, origin: Vector) -> Frame:
+    """Frame from the artery's axis and where φ = 0 points; its part along the axis does not count.
+
+    Parameters
+    ----------
+    axis, phi_zero : str or tuple of float
+        By name ("x", "-y") or components.
+    origin : tuple of float
+        m.
+    """
+    along, towards = np.array(components(axis)), np.array(components(phi_zero))
+    across = towards - (towards @ along) * along
+    first = across / np.linalg.norm(across)
+    return Frame(np.array(origin), np.array([along, first, np.cross(along, first)]))

@@ -21,6 +21,7 @@ from validation.reference.kind import HowToMake, Progress, Reference, ReferenceK
 from validation.reference.mesh.calcified_extent import described, doubts, extent
 from validation.reference.mesh.checks import check_direction, check_length, check_radius, plane_checks
 from validation.reference.mesh.model import MeshModel, mesh_model
+from validation.reference.mesh.periodicity import cycle_change, periodicity_doubts
 from validation.reference.mesh.series import MeshSeries
 
 S = TypeVar("S", bound=MeshReference)
@@ -68,8 +69,7 @@ def mesh_kind(
         case: Case, rays: Rays, progress: Progress | None = None, alignment: Alignment | None = None
     ) -> Reference:
         with opened(case) as (series, stated):
-            chosen = _alignment(series, stated, case) if alignment is None else alignment
-            return _read(series, stated, case, rays, progress, chosen)
+            return _read(series, stated, case, rays, progress, alignment)
 
     return ReferenceKind(align_case, read_case, how_to_make)
 
@@ -95,16 +95,20 @@ def _read(
     case: Case,
     rays: Rays,
     progress: Progress | None,
-    alignment: Alignment,
+    alignment: Alignment | None,
 ) -> Reference:
     model = mesh_model(series, stated)
+    if alignment is None:
+        alignment = _alignment(series, stated, case)
     check_length(model.mesh, case)
     check_radius(model.mesh, case)
     account = series.account()
     kept = _Kept(np.ix_(np.array(case.compare.cells.i) - 1, np.array(case.compare.cells.j) - 1))
-    mapped = _mapped(model, Mapper(model.mesh, rays), alignment, progress, kept)
+    mapper = Mapper(model.mesh, rays)
+    mapped = _mapped(model, mapper, alignment, progress, kept)
     fields = derived_fields(mapped, rays, alignment.cycle_times)
     fields = fields.assign({RINGS: _rings(kept, rays)})
+    change = cycle_change(series.times, alignment.states, case.inlet.period, model.read, mapper, fields)
     inflow, inlet_area = np.array(kept.inlet).T
     check_direction(inflow, alignment, case)
     checks = plane_checks(model, alignment, case, rays)
@@ -113,9 +117,14 @@ def _read(
         fields=fields,
         checks=checks.assign(inlet_flow_rate=("time", inflow), inlet_area=("time", inlet_area)),
         alignment=alignment,
-        description={"kind": stated.kind} | account.facts | _facts(series, alignment, model),
+        description={
+            "kind": stated.kind,
+            **account.facts,
+            **_facts(series, alignment, model),
+            "cycle_change": change and change.amount,
+        },
         notes=(*model.notes, *account.notes),
-        warnings=(*unlike, *account.warnings),
+        warnings=(*periodicity_doubts(change), *unlike, *account.warnings),
     )
 
 
@@ -128,6 +137,7 @@ def _facts(series: MeshSeries, alignment: Alignment, model: MeshModel) -> dict[s
         "coverage": round(alignment.coverage, 6),
         "first_time_s": float(series.times[alignment.states[0]]),
         "last_time_s": float(series.times[alignment.states[-1]]),
+        "lumen_elements": len(model.mesh.lumen.kinds),
         **({"calcified": place} if place else {}),
     }
 

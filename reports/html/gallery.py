@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
+from cases.results.metric_row import Status
 from reports.blocks import Report
 from reports.html.render import environment
 from reports.result.load import Comparison
 from reports.sections.verdict import by_variant, headline
 
-RANKS = {"FAIL": 0, "MISSING": 1, "OK": 2}
+RANKS: dict[Status, int] = {"FAIL": 0, "MISSING": 1, "OK": 2}
 
 
 @dataclass(frozen=True)
@@ -45,27 +46,55 @@ class Entry:
     rank: tuple[float, float]
     picture: str
     alt: str
-    page: str = "report.html"
-    pdf: str = "report.pdf"
+    page: str
+    pdf: str
 
 
 def entry(directory: Path, comparison: Comparison, report: Report, drawings: dict[str, str]) -> Entry:
     """Sum up one comparison: bands that fail come first, by how far, then missing ones, then held ones."""
     bands = comparison.metrics.bands()
-    counts = Counter(str(row.status) for row in bands)
-    worst = min((RANKS[row.status] for row in bands), default=len(RANKS))
-    furthest = max((row.ratio for row in bands if row.error is not None), default=0.0)
-    still = next((figure for figure in report.figures() if figure.key == "artery-still"), None)
+    judged = ([row.status for row in bands], [row.ratio for row in bands if row.error is not None])
+    said = (headline(comparison), by_variant(comparison))
+    return summed_up(directory, report, drawings, said, judged, "artery-still")
+
+
+def summed_up(
+    directory: Path,
+    report: Report,
+    drawings: dict[str, str],
+    said: tuple[str, tuple[str, ...]],
+    judged: tuple[list[Status], list[float]],
+    picture: str,
+    files: tuple[str, str] = ("report.html", "report.pdf"),
+) -> Entry:
+    """Sum up a report.
+
+    Parameters
+    ----------
+    directory, report, drawings
+        Where it is, what it says, and its figures' SVG.
+    said : (str, tuple of str)
+        Its headline, and the verdicts.
+    judged : (list of str, list of float)
+        Verdicts of the bands, and how far errors are, over their limits.
+    picture : str
+        How the key of its picture begins.
+    files : (str, str)
+        Names of its page and of its PDF.
+    """
+    statuses, ratios = judged
+    counts = Counter(statuses)
+    figure = next((figure for figure in report.figures() if figure.key.startswith(picture)), None)
     return Entry(
         directory,
         report.title,
         report.identity,
-        headline(comparison),
-        by_variant(comparison),
+        *said,
         tuple((status, counts[status]) for status in RANKS if counts[status]),
-        (worst, -furthest),
-        drawings[still.key] if still else "",
-        still.alt if still else "",
+        (min((RANKS[status] for status in statuses), default=len(RANKS)), -max(ratios, default=0.0)),
+        drawings[figure.key] if figure else "",
+        figure.alt if figure else "",
+        *files,
     )
 
 

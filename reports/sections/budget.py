@@ -1,0 +1,132 @@
+"""Section of the error budget: what of each error is owed to inflow, meshes, inputs and the model."""
+
+import math
+from functools import partial
+
+from reports.blocks import Block, Bullets, Column, Figure, Paragraph, Table
+from reports.figures.budget_bars import BudgetBars, budget_bars
+from reports.result.load import Comparison
+from reports.sections.declaration import Blocks, declared
+from reports.sections.parts.error_budget import Budget, budget, budgets, sentence
+from reports.wording.csv_text import comma_separated
+from reports.wording.numbers import ABSENT, fixed, listed, share
+from reports.wording.words import quantity_words
+
+_WITHOUT_BANDS = ("section_flow_rate", "pressure", "radius")
+_COLUMNS = {
+    "error": "error",
+    "inflow": "inflow",
+    "matched": "error, same inflow",
+    "mesh": "3D mesh",
+    "grid": "2D grid, step",
+    "inputs": "inputs",
+    "uncertainty": "all uncertain",
+}
+_BARS = ("error", "inflow", "matched", "mesh", "grid", "inputs")
+
+
+def _interval(found: Budget) -> str:
+    if found["uncertainty"] is None:
+        return ABSENT
+    return f"{share(found['model_low'])} … {share(found['model_high'])}"
+
+
+def _order(found: Budget) -> str:
+    orders = [fixed(found[name], 1) for name in ("mesh_order", "grid_order", "step_order")]
+    return " / ".join(orders)
+
+
+def _table(comparison: Comparison, number: int, variant: str) -> Table:
+    rows = tuple(
+        (
+            quantity_words(found.quantity),
+            *(ABSENT if found[part] is None else share(found[part]) for part in _COLUMNS),
+            _interval(found),
+            _order(found),
+        )
+        for found in budgets(comparison, variant)
+    )
+    return Table(
+        f"budget-{number}",
+        f"Variant {variant}: root mean square over all cells and states, or size of a number of the cycle, "
+        "relative to 3D. What is uncertain counts with its factor of safety; the model's error lies in the "
+        f"interval of the error with the same inflow ± all that is uncertain and known. {ABSENT}: not known. "
+        "Orders are observed: of the 3D mesh, the 2D grid and the 2D time step.",
+        (
+            Column("quantity", "prose"),
+            *(Column(title, "number") for title in _COLUMNS.values()),
+            Column("error of the model", "number"),
+            Column("orders", "number"),
+        ),
+        rows,
+    )
+
+
+def _shown(comparison: Comparison) -> list[str]:
+    """Quantities worth a figure: those that bands judge, else the usual ones."""
+    names = dict.fromkeys(row.quantity for row in comparison.metrics.bands()) or _WITHOUT_BANDS
+    return [n for n in names if any(budget(comparison, v, n) for v in comparison.variants)]
+
+
+def _figure(comparison: Comparison, quantity: str) -> Figure:
+    found = {v: b for v in comparison.variants if (b := budget(comparison, v, quantity))}
+    bars = [
+        BudgetBars(variant, tuple(_percent(of[part]) for part in _BARS), _model(of))
+        for variant, of in found.items()
+    ]
+    said = "; ".join(f"{variant}: {sentence(of)}" for variant, of in found.items())
+    rows = [(v, part, value) for v, of in found.items() for part, value in of.parts.items()]
+    return Figure(
+        key=f"budget-figure-{quantity}",
+        caption=f"Error of the {quantity_words(quantity)} and what it is owed to. {said}.",
+        alt=f"Bars of the error of the {quantity_words(quantity)}, of the parts of its uncertainty and of "
+        f"the error with the same inflow, for variants {listed(found)}. {said}.",
+        drawing=partial(budget_bars, [_COLUMNS[part] for part in _BARS], bars),
+        csv=comma_separated(("variant", "part", "value"), rows),
+    )
+
+
+def _percent(value: float | None) -> float:
+    return math.nan if value is None else 100.0 * value
+
+
+def _model(found: Budget) -> tuple[float, float]:
+    return _percent(found["model_low"]), _percent(found["model_high"])
+
+
+def _unknown(comparison: Comparison) -> tuple[str, ...]:
+    """Say which parts are not known, and of which variants."""
+    said = []
+    for part, words in (
+        ("inflow", "what the inflow of the 3D mesh changes (compare.matched_inflow)"),
+        ("mesh", "the error of the 3D mesh (reference.levels)"),
+        ("grid", "that of the 2D grid and time step"),
+        ("inputs", "what uncertain inputs change"),
+    ):
+        names = [
+            name
+            for name in comparison.variants
+            if (found := budgets(comparison, name)) and all(of[part] is None for of in found)
+        ]
+        said += [f"Not known of {listed(names)}: {words}."] if names else []
+    return tuple(said)
+
+
+@declared("budget", "Error budget")
+def section(comparison: Comparison) -> Blocks:
+    """Return a table a variant, what is not known, and a figure a quantity."""
+    shown = [name for name in comparison.variants if budgets(comparison, name)]
+    if not shown:
+        return ()
+    blocks: list[Block] = [
+        Paragraph(
+            "A difference between 2D and 3D mixes the model's error with what other inflow, meshes, steps "
+            "and inputs do. Here they are told apart: where the error is no larger than what is uncertain, "
+            "no error of the model can be told."
+        )
+    ]
+    unknown = _unknown(comparison)
+    blocks += [Bullets(unknown)] if unknown else []
+    blocks += [_table(comparison, k, name) for k, name in enumerate(shown, start=1)]
+    blocks += [_figure(comparison, quantity) for quantity in _shown(comparison)]
+    return tuple(blocks)

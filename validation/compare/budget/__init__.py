@@ -1,0 +1,1 @@
+"""What a difference between both models owes to inflow, meshes, steps, inputs and model."""

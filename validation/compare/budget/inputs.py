@@ -1,0 +1,198 @@
+"""What the uncertainty of a case's inputs leaves open of the reduced model's results."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cases.arrays import Floats
+from cases.errors import CaseFileError
+from cases.fields import FIELDS
+from cases.quantities import reads
+from cases.reading.template import Template, case_with
+from cases.reading.uncertain_numbers import UncertainNumber, uncertain_numbers
+from cases.sections.case import Case
+from cases.sections.uncertainty import Uncertainty
+from solver.model.parameters import Model
+from solver.runs.batch import run_batch
+from solver.runs.result import CellHistory, cell_dataset
+from validation.compare.budget.spread import RunningSpread, relative_spread
+from validation.metrics.quantities import CYCLE_QUANTITIES, DERIVED_QUANTITIES
+from validation.runs.cache import Cache, Entry
+from validation.runs.cached import Remark, cached, canonical, key_of
+from validation.runs.reduced_model import run_times
+from validation.sweep.design import Design, points
+from validation.sweep.display import Display
+from validation.sweep.parameters import Parameter
+
+AT_ONCE = 8  # results in memory
+MOST_FAILED = 0.1  # share of the samples; above it there is no number
+STEP = 0.1  # of a standard deviation: half the interval of the central differences
+Values = dict[str, Floats]
+
+
+@dataclass(frozen=True)
+class InputUncertainty:
+    """Relative standard uncertainty by quantity, and what is to be said of it."""
+
+    relative: dict[str, float]
+    description: dict[str, Any]
+
+
+def input_uncertainty(
+    template: Template,
+    case: Case,
+    instants: Floats,
+    quantities: Sequence[str],
+    store: Cache | None = None,
+    remark: Remark = lambda _said: None,
+) -> Mapping[str, float]:
+    """Relative standard uncertainty of 2D results by that of the inputs: u_input of ASME V&V 20-2009.
+
+    Parameters
+    ----------
+    template : Template
+        Of the variant, see :func:`cases.reading.template.load_template`.
+    case : Case
+        The same variant; its ``uncertainty`` says what is uncertain.
+    instants : ndarray (n,)
+        Of the reference in the last cycle of a run, s (``Alignment.rom_times``).
+    quantities : sequence of str
+        Names of `cases.fields.FIELDS` that are compared; those on rays have no number.
+    store : Cache, optional
+    remark : callable, optional
+        Takes in words what was left out and what failed.
+
+    Returns
+    -------
+    mapping of str to float
+        Of a field the root mean square over all cells and instants of the standard deviation over the mean,
+        of a number of the cycle its standard deviation over its mean; nothing where there is no number.
+    """
+    if case.uncertainty is None:
+        return {}
+    numbers, lacking = uncertain_numbers(case)
+    if lacking:
+        remark(f"{template.variant}: uncertainty: has no {', '.join(lacking)}: left out")
+    wanted = [name for name in dict.fromkeys(quantities) if "y" not in FIELDS[name].dims]
+    if not numbers or not wanted:
+        return {}
+    parts = {
+        "case": {
+            name: getattr(case, name)
+            for name in type(case).model_fields
+            if name not in ("title", "reference", "compare")
+        },
+        "instants": instants,
+        "quantities": wanted,
+    }
+    found = cached(
+        store,
+        lambda: key_of("input uncertainty", canonical(parts)),
+        lambda: _computed(_Runs(template, case, instants, wanted), case.uncertainty, list(numbers.values())),
+        lambda each: Entry({}, {"relative": each.relative, "description": each.description}),
+        lambda entry: InputUncertainty(entry.facts["relative"], entry.facts["description"]),
+        remark,
+    )
+    said = found.description["said"]
+    if said:
+        remark(f"{template.variant}: uncertainty: {said}")
+    return found.relative
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """Runs of a case with other values of its uncertain numbers."""
+
+    template: Template
+    case: Case
+    instants: Floats
+    quantities: Sequence[str]
+
+    def results(self, numbers: Sequence[UncertainNumber], values: Floats) -> Iterator[Values | None]:
+        """Quantities of each sample, in order; None where its values are not allowed or its run fails.
+
+        Parameters
+        ----------
+        numbers : sequence of UncertainNumber
+        values : ndarray (n, n_numbers)
+            SI.
+        """
+        for first in range(0, len(values), AT_ONCE):
+            made = [self._case(numbers, each) for each in values[first : first + AT_ONCE].tolist()]
+            cases = [case for case in made if case is not None]
+            times = run_times(self.case, self.instants)
+            outcomes = iter(run_batch(cases, times, self._kept) if cases else ())
+            yield from [None if case is None else next(outcomes).kept for case in made]
+
+    def _case(self, numbers: Sequence[UncertainNumber], values: Sequence[float]) -> Case | None:
+        stated = {each.key.path: each.key.stated(value) for each, value in zip(numbers, values, strict=True)}
+        try:
+            return case_with(self.template, stated)
+        except CaseFileError:
+            return None
+
+    def _kept(self, model: Model, cells: CellHistory) -> Values:
+        last = cell_dataset(model, cells).sel(time=self.instants)
+        return {name: _quantity(name, last) for name in self.quantities}
+
+
+def _quantity(name: str, last: xr.Dataset) -> Floats:
+    measure: Callable[[xr.Dataset], Any] | None = CYCLE_QUANTITIES.get(name) or DERIVED_QUANTITIES.get(name)
+    return np.asarray(last[reads(name)[0]].to_numpy() if measure is None else measure(last), dtype=float)
+
+
+def _computed(
+    runs: _Runs, stated: Uncertainty | None, numbers: Sequence[UncertainNumber]
+) -> InputUncertainty:
+    if stated is not None and stated.method == "local":
+        return _local(runs, numbers)
+    return _sampled(runs, stated or Uncertainty.model_construct(), numbers)
+
+
+def _sampled(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> InputUncertainty:
+    """Spread of the results of a Latin hypercube; McKay et al. (1979), Technometrics 21, 239–245."""
+    design = Design(kind="latin_hypercube", count=stated.samples, seed=stated.seed)
+    values = points(design, [_parameter(each) for each in numbers])
+    spread, failed = RunningSpread(), 0
+    for result in runs.results(numbers, values):
+        if result is None:
+            failed += 1
+        else:
+            spread.add(result)
+    said = f"{failed} of {stated.samples} samples failed" if failed else ""
+    if spread.count < 2 or failed > MOST_FAILED * stated.samples:
+        return _told({}, stated.samples, failed, f"{said or 'a single sample'}: no number")
+    return _told(relative_spread(spread.mean, spread.variance), stated.samples, failed, said)
+
+
+def _parameter(number: UncertainNumber) -> Parameter:
+    kind = "normal" if "mean" in number.numbers else "uniform"
+    return Parameter(number.key, number.key.name, Display(number.key.kind.unit, 1.0), kind, number.numbers)
+
+
+def _local(runs: _Runs, numbers: Sequence[UncertainNumber]) -> InputUncertainty:
+    """Σ (∂f/∂p σ_p)² by central differences, about the result of the case itself."""
+    base = np.array([each.key.value or 0.0 for each in numbers])
+    steps = STEP * np.diag([each.standard_deviation for each in numbers])
+    values = np.stack([base, *(base + sign * step for step in steps for sign in (1, -1))])
+    results = runs.results(numbers, values)
+    mean, failed = next(results), 0
+    variance: Values = {}
+    for above, below in zip(results, results, strict=True):
+        if above is None or below is None:
+            failed += 1
+            continue
+        for name in above:
+            change = (above[name] - below[name]) / (2 * STEP)
+            variance[name] = variance.get(name, np.zeros(change.shape)) + change**2
+    if failed or mean is None:
+        said = f"{failed} of {len(numbers)} central differences failed: no number"
+        return _told({}, len(values), failed, said)
+    return _told(relative_spread(mean, variance), len(values), 0, "")
+
+
+def _told(relative: dict[str, float], runs: int, failed: int, said: str) -> InputUncertainty:
+    return InputUncertainty(relative, {"runs": runs, "failed": failed, "said": said})
