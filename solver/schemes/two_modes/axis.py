@@ -16,6 +16,24 @@ LOWER, MIDDLE, UPPER = 0, 1, 2
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _beyond_upwind(axis: Floats, f: int, speed: float) -> float:
+    """Fromm's difference minus the upwind one, one-sided where D leaves; 0 beside the end where it enters.
+
+    Taken of the last iterate, it shrinks a sweep's error by half at least, whatever D Δt/Δx is.
+    """
+    last = axis.size - 1
+    if speed > 0.0 and f > 1:
+        if f == last:
+            return 0.5 * (axis[f] - 2.0 * axis[f - 1] + axis[f - 2])
+        return 0.25 * (axis[f + 1] - axis[f] - axis[f - 1] + axis[f - 2])
+    if speed < 0.0 and f < last - 1:
+        if f == 0:
+            return -0.5 * (axis[f] - 2.0 * axis[f + 1] + axis[f + 2])
+        return -0.25 * (axis[f - 1] - axis[f] - axis[f + 1] + axis[f + 2])
+    return 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def axis_momentum(
     theta: float,
     carry: float,
@@ -38,7 +56,8 @@ def axis_momentum(
     theta, carry, scale : float
         θ, Δt/Δx, s/m, and Δt μ/ρ, m².
     old, advecting : ndarray (n_x + 1,)
-        D of the old state, and the θ-weighted one of the last iterate, with which it is advected, upwind.
+        D of the old state, and the θ-weighted one of the last iterate, with which it is advected: upwind, and
+        the rest of Fromm's difference of the last iterate.
     drive : ndarray (n_x + 1,)
         Δt/ρ ∂_xP, mean over φ.
     old_flow, new_flow : ndarray (n_x + 1, n_phi)
@@ -68,6 +87,7 @@ def axis_momentum(
             upper[f] = theta * speed
             middle[f] -= theta * speed
             right[f] -= (1.0 - theta) * speed * (old[f + 1] - old[f])
+        right[f] -= speed * _beyond_upwind(advecting, f, speed)
     if inlet_kind != PRESSURE_INLET:
         lower[0], middle[0], upper[0], right[0] = 0.0, 1.0, 0.0, 2.0 * inlet_velocity
 
