@@ -82,6 +82,16 @@ OF_PRESSURE, OF_RADIUS = Compared(reads=("section_pressure",)), Compared(reads=(
 FIELDS = _table(
     Field("pressure", "P", "pressure", "Pa", "kPa", 1e-3, CELL, OF_MODELS),
     Field("radius", "R", "lumen radius", "m", "mm", 1e3, CELL, OF_MODELS),
+    Field(
+        "radius_change",
+        "ΔR",
+        "lumen radius over its least of the cycle",
+        "m",
+        "mm",
+        1e3,
+        SECTION,
+        Compared(reads=("radius",), tabulated=False, pooled=False, statistics=tuple(JUDGED)),
+    ),
     Field("mean_velocity", "u", "mean velocity along the ray", "m s-1", "cm/s", 1e2, CELL, OF_FLOW),
     Field("sector_flow_rate", "q_φ", "flow rate through one sector", "m3 s-1", "cm³/s", 1e6, CELL, OF_FLOW),
     Field("profile_exponent", "γ", "velocity-profile exponent", "1", "1", 1.0, CELL, OF_MODELS),

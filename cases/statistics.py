@@ -45,8 +45,9 @@ JUDGED = _table(  # what bands may limit
     Statistic("rms_difference", "RMS difference", relative=False),
     Statistic("max_difference", "largest difference", relative=False),
     Statistic("rms_over_rms", "RMS difference over the RMS of 3D", signed=False),
+    Statistic("rms_over_largest", "RMS difference over the largest of 3D", signed=False),
 )
-OF_POSITIVE = tuple(name for name in JUDGED if name != "rms_over_rms")
+OF_POSITIVE = tuple(name for name in JUDGED if not name.startswith("rms_over_"))
 PLACED = JUDGED | _table(  # what reports have tables for
     Statistic("value", "value"),
     Statistic("cycle", "error over the cycle"),

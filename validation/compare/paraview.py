@@ -13,6 +13,8 @@ from cases.quantities import tabulated
 from cases.results.comparison_file import CALCIFIED, MODELS, WALL_STIFFNESS, variable
 from febio_io.views.vtk_times import write_over_time
 
+DRAWN = 48  # rows with which an artery of one row is drawn round
+
 
 def edges(centres: Floats) -> Floats:
     """Edges of uniform cells with these centres, (n + 1,)."""
@@ -48,6 +50,9 @@ def wall_points(x: Floats, phi: Floats, radius: Floats) -> Floats:
 def _wall_at(model: str, both: xr.Dataset) -> Callable[[int], pv.PolyData]:
     """Return what makes the surface of a state, with the values of its cells."""
     axes = both["x"].to_numpy(), both["phi"].to_numpy()
+    if axes[1].size == 1:
+        both = both.isel(phi=np.zeros(DRAWN, dtype=int))
+        axes = axes[0], 2 * np.pi * (np.arange(DRAWN) + 0.5) / DRAWN
     cells = [name for name in tabulated() if FIELDS[name].dims == CELL]
     fields = {name: both[variable(model, name)].to_numpy() for name in cells}
     quads = quadrilaterals(*(axis.size for axis in axes))

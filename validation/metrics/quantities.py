@@ -49,8 +49,19 @@ def sector_share(model: xr.Dataset) -> Floats:
     return share
 
 
+def radius_change(model: xr.Dataset) -> Floats:
+    """Mean radius of each section over its least of the cycle, (n_t, n_x), unless it is stated itself."""
+    if "radius_change" in model:
+        return np.asarray(model["radius_change"].to_numpy(), dtype=float)
+    radius = model["radius"].mean("phi")
+    return np.asarray((radius - radius.min("time")).to_numpy(), dtype=float)
+
+
 #: values over the cycle, on the dimensions of their field
-DERIVED_QUANTITIES: dict[str, Callable[[xr.Dataset], Floats]] = {"sector_flow_share": sector_share}
+DERIVED_QUANTITIES: dict[str, Callable[[xr.Dataset], Floats]] = {
+    "sector_flow_share": sector_share,
+    "radius_change": radius_change,
+}
 
 
 LARGEST_LAG = 0.1  # share of a cycle searched for a lag

@@ -48,6 +48,10 @@ OF_ERROR: dict[str, Callable[[Floats], float]] = {
     "scatter": scatter,
 }
 OF_DIFFERENCE: dict[str, Callable[[Floats], float]] = {"rms_difference": rms, "max_difference": largest}
+SIZES: dict[str, Callable[[Floats], float]] = {  # of 3D, over which an RMS difference is taken
+    "rms_over_rms": rms,
+    "rms_over_largest": lambda reference: float(np.max(np.abs(reference))),
+}
 EXTREMES = ("systolic_error", "diastolic_error")
 
 
@@ -68,8 +72,8 @@ def statistic_value(statistic: str, rom: Floats, reference: Floats) -> float | N
         return extreme_error(statistic, rom, reference)
     if statistic in OF_DIFFERENCE:
         return OF_DIFFERENCE[statistic](rom - reference) if _finite(rom, reference) else None
-    if statistic == "rms_over_rms":
-        size = rms(reference) if _finite(rom, reference) else 0.0
+    if statistic in SIZES:
+        size = SIZES[statistic](reference) if _finite(rom, reference) else 0.0
         return rms(rom - reference) / size if size > 0 else None
     error = relative_error(rom, reference)
     return None if error is None else OF_ERROR[statistic](error)

@@ -23,6 +23,7 @@ from validation.mapping.derived import as_dataset
 from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
 from validation.reference.kind import Progress, Reference, ReferenceKind
+from validation.reference.unstated import nothing_stated
 from validation.runs.provenance import shown_path
 
 PRINTED = 2e-3  # s: printed times are rounded, and one instant is not always printed alike
@@ -36,12 +37,6 @@ QUOTED = {  # quantities of the table of quoted values, by the names that metric
     "min_inner_radius": "least_radius",
     "max_radius_variation": "largest_radius_variation",
 }
-RAY_FIELDS = ("axial_velocity", "radial_velocity", "azimuthal_velocity")
-NEVER_STATED = (
-    *("pressure", "radius", "mean_velocity", "profile_exponent", "profile_error", "section_pressure"),
-    "section_pressure_range",
-    *("mass_defect", "backflow_fraction", "axis_velocity_spread"),
-)
 
 
 def align_tables(case: Case) -> Alignment:
@@ -93,7 +88,7 @@ def read_tables(
     """
     stated = _stated(case)
     alignment = align_tables(case) if alignment is None else alignment
-    fields = _nothing(rays, alignment)
+    fields = nothing_stated(rays, alignment)
     tables = (
         ("section_flow_rate", stated.section_flow_rate, CM3),
         ("sector_flow_rate", stated.sector_flow_rate, CM3),
@@ -120,25 +115,6 @@ def _stated(case: Case) -> TablesReference:
     if not isinstance(case.reference, TablesReference):
         raise UnusableReferenceError("the case states no tables as reference")
     return case.reference
-
-
-def _nothing(rays: Rays, alignment: Alignment) -> dict[str, NDArray[np.floating]]:
-    """Fields of a reference that states nothing: NaN everywhere."""
-    sizes = dict(zip(("x", "phi", "y"), rays.shape, strict=True)) | {"time": alignment.cycle_times.size}
-    tabulated = (
-        "section_flow_rate",
-        "sector_flow_rate",
-        "axial_dominance_radial",
-        "axial_dominance_azimuthal",
-    )
-    return {
-        name: np.full(
-            [sizes[dim] for dim in FIELDS[name].dims],
-            np.nan,
-            np.float32 if name in RAY_FIELDS else np.float64,
-        )
-        for name in (*NEVER_STATED, *tabulated, *RAY_FIELDS)
-    }
 
 
 def _table(path: Path, columns: tuple[str, ...]) -> pd.DataFrame:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from cases.sections.references.base import ReferenceSection
 from cases.sections.references.febio import FebioReference
+from cases.sections.references.series import SeriesReference
 from cases.sections.references.tables import TablesReference
 
 
@@ -22,5 +23,6 @@ class RegisteredKind:
 
 KINDS = {
     "febio": RegisteredKind(FebioReference, "validation.reference.febio.series"),
+    "series": RegisteredKind(SeriesReference, "validation.reference.series"),
     "tables": RegisteredKind(TablesReference, "validation.reference.tables"),
 }
