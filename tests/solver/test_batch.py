@@ -83,7 +83,8 @@ def test_rows_that_are_alike_are_computed_once(variants):
 
 
 def test_a_tabulated_wall_that_is_alike_is_computed_once(case_file):
-    case_file.write_text(case_file.read_text().replace("law: thin", "law: neo_hookean"))
+    text = case_file.read_text().replace("law: thin", "law: neo_hookean")
+    case_file.write_text(text.replace("poisson_ratio: 0.5", "poisson_ratio: 0.48"))
     case = load_case_file(case_file).variants["healthy"]
     (outcome,) = run_batch(
         [case], TIMES, lambda model, cells: (fewer_rows(model), cell_dataset(model, cells))

@@ -162,10 +162,10 @@ def test_a_3d_run_is_fitted(calibration_of, tmp_path, capsys):
             "ends on its limit low",
         ),
         (
-            {"wall.poisson_ratio": {"low": 0.2, "high": 0.49}},
+            {"calcification.x[2]": {"low": "9.5 mm", "high": "10.5 mm"}},  # between two sections' centres
             PRESSURES[:1],
-            {"wall": {"law": "thin"}},
-            "no target depends on wall.poisson_ratio",
+            {"variant": "axisymmetric"},
+            "no target depends on calcification.x[2]",
         ),
         (
             MATERIAL | {"geometry.wall_thickness": {"low": "0.1 mm", "high": "1 mm"}},

@@ -99,8 +99,10 @@ def test_a_reference_false_by_a_factor_has_just_this_error(quantity):
         expected = 1.05 - 1 if inverse else 1 / 1.05 - 1
         if row.quantity not in AFFECTED[quantity] or row.statistic == "scatter":
             assert row.error == pytest.approx(0.0, abs=1e-12), row
-        elif row.statistic == "rms_error":
+        elif row.statistic in ("rms_error", "rms_over_rms"):
             assert row.error == pytest.approx(abs(expected), rel=1e-9), row
+        elif row.statistic == "rms_over_largest":  # less by the quantity's RMS over its largest
+            assert 0 < row.error < abs(expected), row
         else:
             assert row.error == pytest.approx(expected, rel=1e-9), row
 
