@@ -136,7 +136,8 @@ class _Runs:
 
     def _kept(self, model: Model, cells: CellHistory) -> Values:
         last = cell_dataset(model, cells).sel(time=self.instants)
-        return {name: _quantity(name, last) for name in self.quantities}
+        known = [name for name in self.quantities if all(field in last for field in reads(name))]
+        return {name: _quantity(name, last) for name in known}
 
 
 def _quantity(name: str, last: xr.Dataset) -> Floats:
