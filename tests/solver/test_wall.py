@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cases.sections.wall_laws import LAWS
+from cases.sections.wall_laws.law import Layer
 from solver.wall.stiffness import area_from_pressure, pressure_from_area
 
 RADIUS, THICKNESS, MODULUS = 2.5e-3, 0.5e-3, 0.6e6
@@ -46,6 +47,24 @@ def test_a_thin_thick_wall_is_the_thin_wall(ratio):
     thick = wall_stiffness("thick", MODULUS, RADIUS, thickness, ratio)
     thin = wall_stiffness("thin", MODULUS, RADIUS, thickness, ratio)
     assert thick == pytest.approx(thin, rel=2e-5)
+
+
+@pytest.mark.parametrize("law", ["thin", "thick", "layered"])
+def test_the_incompressible_wall_is_the_limit(law):
+    layer = Layer.model_construct(name="all", thickness=THICKNESS, youngs_modulus=MODULUS)
+
+    def stiffness(ratio):
+        if law != "layered":
+            return wall_stiffness(law, MODULUS, RADIUS, THICKNESS, ratio)
+        wall = LAWS[law].model_construct(layers=(layer,), poisson_ratio=ratio)
+        return wall.stiffness([np.array(MODULUS)], RADIUS, THICKNESS)
+
+    assert stiffness(0.5) == pytest.approx(stiffness(0.5 - 1e-9), rel=1e-7)
+    # one thick layer: u = P (1 + ν)/E R b²/(b² − R²)
+    outer = RADIUS + THICKNESS
+    lame = MODULUS / 1.5 * (outer**2 - RADIUS**2) * RADIUS / outer**2
+    if law != "thin":
+        assert stiffness(0.5) == pytest.approx(lame, rel=1e-9)
 
 
 @pytest.mark.parametrize("law", ["thin", "thick"])

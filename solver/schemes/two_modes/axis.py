@@ -24,12 +24,12 @@ def _beyond_upwind(axis: Floats, f: int, speed: float) -> float:
     last = axis.size - 1
     if speed > 0.0 and f > 1:
         if f == last:
-            return 0.5 * (axis[f] - 2.0 * axis[f - 1] + axis[f - 2])
-        return 0.25 * (axis[f + 1] - axis[f] - axis[f - 1] + axis[f - 2])
+            return float(0.5 * (axis[f] - 2.0 * axis[f - 1] + axis[f - 2]))
+        return float(0.25 * (axis[f + 1] - axis[f] - axis[f - 1] + axis[f - 2]))
     if speed < 0.0 and f < last - 1:
         if f == 0:
-            return -0.5 * (axis[f] - 2.0 * axis[f + 1] + axis[f + 2])
-        return -0.25 * (axis[f - 1] - axis[f] - axis[f + 1] + axis[f + 2])
+            return float(-0.5 * (axis[f] - 2.0 * axis[f + 1] + axis[f + 2]))
+        return float(-0.25 * (axis[f - 1] - axis[f] - axis[f + 1] + axis[f + 2]))
     return 0.0
 
 
