@@ -162,3 +162,16 @@ def test_only_a_comparison_knows_the_inflow_of_the_reference(tmp_path, made, cap
     path = written(content, tmp_path)
     assert solver.main([str(path), "--output", str(tmp_path / "run.nc")]) == 2
     assert "inlet.kind: reference" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_uncertain_inputs_enter_the_budget(tmp_path, quick, made, shared):
+    content = made()
+    stated = {"outlet.resistance": {"relative": "5 %", "reason": "made up"}}
+    content["uncertainty"] = {"samples": 8, "inputs": stated, "shared_with_reference": shared}
+    assert compare.main([str(written(content, tmp_path)), "--output", str(tmp_path / "result")]) == 0
+    found = budget_of(tmp_path / "result")
+    share = float(found["pressure", "inputs"])
+    assert 0.005 < share < 0.05  # the resistance carries a part of the pressure
+    assert (float(found["pressure", "uncertainty"]) >= share) == (not shared)
+    assert float(found["section_flow_rate", "inputs"]) < share  # the inflow is prescribed

@@ -42,6 +42,8 @@ class Budget:
         Observed orders of the 2D grid and time step.
     extrapolated : float or None
         Error in the limit of fine 3D meshes.
+    inputs_shared : bool
+        Whether both models have the same inputs, whose uncertainty is then no part of their difference.
     """
 
     error: float
@@ -55,11 +57,13 @@ class Budget:
     grid_order: float | None = None
     step_order: float | None = None
     extrapolated: float | None = None
+    inputs_shared: bool = True
 
     @property
     def uncertainty(self) -> float | None:
-        """Root of the sum of squares of what is known; None where nothing is."""
-        known = [part for part in (self.mesh, self.grid, self.inputs) if part is not None]
+        """Root of the sum of squares of what is known and differs between both; None where nothing is."""
+        inputs = None if self.inputs_shared else self.inputs
+        known = [part for part in (self.mesh, self.grid, inputs) if part is not None]
         return math.hypot(*known) if known else None
 
     @property
@@ -79,7 +83,10 @@ class Budget:
 
 
 def budgets_of(
-    models: Models, sources: Sources, inputs: Mapping[str, float] | None = None
+    models: Models,
+    sources: Sources,
+    inputs: Mapping[str, float] | None = None,
+    inputs_shared: bool = True,
 ) -> dict[str, Budget]:
     """Budget of each quantity whose relative error has a meaning.
 
@@ -90,6 +97,8 @@ def budgets_of(
     sources : Sources
     inputs : mapping of str to float, optional
         By quantity, root mean square of the relative standard deviation that uncertain inputs give it.
+    inputs_shared : bool, optional
+        Whether the reference was computed with the same inputs.
     """
     found = {}
     for quantity in judged_quantities():
@@ -108,6 +117,7 @@ def budgets_of(
             grid_order=None if numerical is None else numerical.grid.observed,
             step_order=None if numerical is None else numerical.step.observed,
             extrapolated=None if mesh is None else mesh.extrapolated,
+            inputs_shared=inputs_shared,
         )
     return found
 
