@@ -13,7 +13,7 @@ def test_a_line_for_each_variant(ready_file, capsys):
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == (
         f"{ready_file}: none: calcification none, 120 x 48 cells, 3 cycles of 0.79733 s, "
-        "reference none.xplt, none.log, none_axis_nodes.txt, none_mid_elements.txt, 2 bands"
+        "reference none.xplt, none_16.xplt, none.log, none_axis_nodes.txt, none_mid_elements.txt, 2 bands"
     )
     assert [line.split(": ")[1] for line in lines] == ["none", "axisymmetric", "local"]
 
@@ -53,6 +53,7 @@ def accepts(schema, value, definitions):
         "object": dict,
         "array": list,
         "string": str,
+        "boolean": bool,
         "integer": int,
         "number": int | float,
         "null": type(None),

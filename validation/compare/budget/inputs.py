@@ -72,7 +72,8 @@ def input_uncertainty(
         Of a field the root mean square over all cells and instants of the standard deviation over the mean,
         of a number of the cycle its standard deviation over its mean; nothing where there is no number.
     """
-    if case.uncertainty is None:
+    stated = case.uncertainty
+    if stated is None:
         return {}
     numbers, lacking = uncertain_numbers(case)
     if lacking:
@@ -92,7 +93,7 @@ def input_uncertainty(
     found = cached(
         store,
         lambda: key_of("input uncertainty", canonical(parts)),
-        lambda: _computed(_Runs(template, case, instants, wanted), case.uncertainty, list(numbers.values())),
+        lambda: _computed(_Runs(template, case, instants, wanted), stated, list(numbers.values())),
         lambda each: Entry({}, {"relative": each.relative, "description": each.description}),
         lambda entry: InputUncertainty(entry.facts["relative"], entry.facts["description"]),
         remark,
@@ -153,12 +154,10 @@ def _quantity(name: str, last: xr.Dataset) -> Floats:
     return np.asarray(last[reads(name)[0]].to_numpy() if measure is None else measure(last), dtype=float)
 
 
-def _computed(
-    runs: _Runs, stated: Uncertainty | None, numbers: Sequence[UncertainNumber]
-) -> InputUncertainty:
-    if stated is not None and stated.method == "local":
+def _computed(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> InputUncertainty:
+    if stated.method == "local":
         return _local(runs, numbers)
-    return _sampled(runs, stated or Uncertainty.model_construct(), numbers)
+    return _sampled(runs, stated, numbers)
 
 
 def _sampled(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> InputUncertainty:

@@ -35,15 +35,15 @@ class Budget:
     matched : float or None
         |E| with the inflow of the 3D mesh.
     mesh, grid, inputs : float or None
-        Uncertainty of the 3D mesh, of the 2D grid and time step, of the inputs.
+        Uncertainty of the 3D mesh, of the 2D grid and time step, of inputs that the models do not share.
+    shared_inputs : float or None
+        Uncertainty of inputs that both models share, which is no part of their difference.
     mesh_order, mesh_safety : float or None
         Observed order on three 3D meshes or more, and the factor of safety that counted.
     grid_order, step_order : float or None
         Observed orders of the 2D grid and time step.
     extrapolated : float or None
         Error in the limit of fine 3D meshes.
-    inputs_shared : bool
-        Whether both models have the same inputs, whose uncertainty is then no part of their difference.
     """
 
     error: float
@@ -52,18 +52,17 @@ class Budget:
     mesh: float | None = None
     grid: float | None = None
     inputs: float | None = None
+    shared_inputs: float | None = None
     mesh_order: float | None = None
     mesh_safety: float | None = None
     grid_order: float | None = None
     step_order: float | None = None
     extrapolated: float | None = None
-    inputs_shared: bool = True
 
     @property
     def uncertainty(self) -> float | None:
-        """Root of the sum of squares of what is known and differs between both; None where nothing is."""
-        inputs = None if self.inputs_shared else self.inputs
-        known = [part for part in (self.mesh, self.grid, inputs) if part is not None]
+        """Root of the sum of squares of what is known; None where nothing is."""
+        known = [part for part in (self.mesh, self.grid, self.inputs) if part is not None]
         return math.hypot(*known) if known else None
 
     @property
@@ -86,7 +85,7 @@ def budgets_of(
     models: Models,
     sources: Sources,
     inputs: Mapping[str, float] | None = None,
-    inputs_shared: bool = True,
+    shared: bool = True,
 ) -> dict[str, Budget]:
     """Budget of each quantity whose relative error has a meaning.
 
@@ -97,10 +96,11 @@ def budgets_of(
     sources : Sources
     inputs : mapping of str to float, optional
         By quantity, root mean square of the relative standard deviation that uncertain inputs give it.
-    inputs_shared : bool, optional
+    shared : bool, optional
         Whether the reference was computed with the same inputs.
     """
     found = {}
+    part = "shared_inputs" if shared else "inputs"
     for quantity in judged_quantities():
         error = apart(quantity, models.rom, models.reference)
         if error is None:
@@ -111,13 +111,12 @@ def budgets_of(
             **_matched(quantity, models, sources),
             mesh=None if mesh is None else mesh.uncertainty,
             grid=None if numerical is None else numerical.uncertainty,
-            inputs=None if inputs is None else inputs.get(quantity),
+            **{part: None if inputs is None else inputs.get(quantity)},
             mesh_order=None if mesh is None else mesh.observed,
             mesh_safety=None if mesh is None else mesh.safety,
             grid_order=None if numerical is None else numerical.grid.observed,
             step_order=None if numerical is None else numerical.step.observed,
             extrapolated=None if mesh is None else mesh.extrapolated,
-            inputs_shared=inputs_shared,
         )
     return found
 
