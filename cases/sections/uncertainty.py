@@ -81,7 +81,22 @@ def _checked(form: str, stated: object, place: tuple[str, ...]) -> object:
     return ratio
 
 
-Inputs = Annotated[tuple[UncertainInput, ...], ValueKind(_inputs, ALLOWED, {"type": "object"})]
+_QUANTITY = {"type": ["string", "number"]}
+_SCHEMA = {
+    "type": "object",
+    "additionalProperties": {
+        "type": "object",
+        "properties": {
+            "standard_deviation": _QUANTITY,
+            "range": {"type": "array", "items": _QUANTITY},
+            "relative": _QUANTITY,
+            "reason": {"type": "string"},
+        },
+        "required": ["reason"],
+        "additionalProperties": False,
+    },
+}
+Inputs = Annotated[tuple[UncertainInput, ...], ValueKind(_inputs, ALLOWED, _SCHEMA)]
 
 
 class Uncertainty(Section):

@@ -92,6 +92,7 @@ def test_the_schema_accepts_the_ready_file_and_refuses_mistakes(ready_file):
         ("pattern: local", "pattern: lokal"),
         ("x: [5 mm, 10 mm]", "x: [5 mm]"),
         ("variants:", "variant:"),
+        ("standard_deviation: 0.12 mm", "deviation: 0.12 mm"),
         ("closure: average", "limiter: van_leer, error_tolerance: 1 %"),
         ("kind: velocity, waveform", "kind: flux, waveform"),
         ("offset: 9330 Pa", "compliance: 1 m^3/Pa"),

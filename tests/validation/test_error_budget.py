@@ -59,7 +59,7 @@ def test_a_reference_scaled_in_one_quantity_is_an_error_of_the_model_there_alone
     run = ReducedModelRun(exact, exact["radius"], 0.0, {})
     mesh = {name: Estimate(5e-4, None, 2.0, 3.0) for name in ("radius", "pressure")}
     models = Models("made", "up", exact * 1.01, reference, 0.8)
-    found = budgets_of(models, Sources(run, {}, mesh, ()), {"pressure": 2e-3})
+    found = budgets_of(models, Sources(run, {}, mesh, ()), {"pressure": 2e-3}, shared=False)
     radius, pressure = found["radius"], found["pressure"]
     assert radius.matched == pytest.approx(0.03, abs=1e-3)
     assert (radius.model_low, radius.model_high) == pytest.approx((0.03, 0.03), abs=1.5e-3)
