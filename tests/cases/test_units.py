@@ -149,7 +149,8 @@ def test_units_that_are_known_without_pint_are_those_of_pint(first, others):
     factor, exponents = common_unit(unit)
     theirs, base = _base_units(unit)
     assert float(factor) == float(theirs)
-    assert base == _base_units(" ".join(f"{b}^{n}" for b, n in zip(BASES, exponents) if n) or "m/m")[1]
+    powers = [f"{name}^{power}" for name, power in zip(BASES, exponents, strict=True) if power]
+    assert base == _base_units(" ".join(powers) or "m/m")[1]
 
 
 @pytest.mark.parametrize("unit", ["cmH2O", "mm2kg", "mm °", "mm %", "inch", "Mm", "mm cmH2O"])
