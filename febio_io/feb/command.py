@@ -16,15 +16,13 @@ from cases.reading.case_file import CaseFile, load_case_file
 from cases.sections.case import Case
 from cases.sections.references.febio import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.terminal import progress_bar
+from cases.shell.interrupts import interrupts_deferred
 from cases.values.ranges import TIME_STEPS
 from cases.values.units import DIMENSIONS, parse_quantity
 from febio_io.feb.from_case import Choices, artery_model
 from febio_io.feb.model import FebioModelError, MeshSize, Windkessel
 from febio_io.feb.windkessel_start import CLOSE
 from febio_io.feb.writer import write_model
-from solver.case.periodic_outlet import periodic_outlet_flow
-from solver.case.periodicity import PERIODIC
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -54,12 +52,18 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _periodic_flow(label: str, case: Case) -> Floats:
+    with interrupts_deferred():
+        from cases.shell.terminal import progress_bar
+        from solver.case.periodic_outlet import periodic_outlet_flow
+
     with progress_bar(label) as progress:
         return periodic_outlet_flow(case, progress)
 
 
 def _started(outlet: Windkessel) -> str:
     """Tell where a Windkessel starts and what that saves."""
+    from solver.case.periodicity import PERIODIC
+
     cycles = outlet.cycles_from_rest
     return (
         f"outlet: starts within {100 * PERIODIC:g} % of its periodic pressure by the reduced model, "

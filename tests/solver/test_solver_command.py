@@ -13,7 +13,7 @@ import solver.command as command
 import solver.runs.resumable as running
 from cases.fields import FIELDS
 from solver.model.diagnostics import Diagnostics
-from solver.runs.resumable import pieces_folder
+from solver.runs.files import pieces_folder
 
 ROOT = Path(__file__).parents[2]
 VARIABLES = {
