@@ -114,7 +114,8 @@ def _interrupt():
 
 def test_missed_tolerance_exits_1(monkeypatch, tmp_path, capsys):
     row = within("far", "value", "", 1.02, 1.0, 0.01)
-    monkeypatch.setattr(tables, "EXPERIMENTS", {"c": Experiment("c", "missed", [], lambda _: [row])})
+    monkeypatch.setattr(experiments, "EXPERIMENTS", {"c": Experiment("c", "missed", [], lambda _: [row])})
+    monkeypatch.setattr(tables, "NAMES", ("c",))
     assert tables.main(["--output", str(tmp_path)]) == 1
     assert "missed" in capsys.readouterr().out
     with (tmp_path / "c.csv").open(encoding="utf-8") as file:
@@ -128,7 +129,8 @@ def test_failed_run_exits_1_and_names_itself(monkeypatch, tmp_path, capsys):
         raise WallCollapse(1.0, 2, 3)
 
     experiment = Experiment("c", "failing", [Entry("collapse", fail, quick=True)], lambda _: [])
-    monkeypatch.setattr(tables, "EXPERIMENTS", {"c": experiment})
+    monkeypatch.setattr(experiments, "EXPERIMENTS", {"c": experiment})
+    monkeypatch.setattr(tables, "NAMES", ("c",))
     assert tables.main(["--output", str(tmp_path)]) == 1
     assert "collapse: the lumen collapsed" in capsys.readouterr().err.replace("\n", " ")
 
