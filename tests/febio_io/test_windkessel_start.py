@@ -213,7 +213,7 @@ def test_a_reduced_model_that_fails_leaves_no_model(tmp_path, capsys, monkeypatc
 
 
 def test_what_cannot_be_a_model_is_refused_before_the_reduced_model_runs(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("febio_io.feb.command.periodic_outlet_flow", None)
+    monkeypatch.setattr("solver.case.periodic_outlet.periodic_outlet_flow", None)
     wall = {"law": "thick", "youngs_modulus": "0.6 MPa", "poisson_ratio": 0.48, "reference_pressure": "9 kPa"}
     case = dumped(tmp_path, "case", stated(THESIS, 5.0, wall=wall))
     assert main([str(case), "--output", str(tmp_path / "m.feb")]) == 2

@@ -22,7 +22,8 @@ from validation.mapping.rays import rays
 from validation.reference.alignment import align
 from validation.runs import cached as cached_runs
 from validation.runs.cache import Cache, Entry, open_cache
-from validation.runs.cached import canonical, reference_key, rom_key
+from validation.runs.cached import reference_key, rom_key
+from validation.runs.keys import canonical
 
 GENEROUS = ("radius", "rms_error", "50 %")
 SHORT = Tube(sectors=8, rings=2, stacks=6, layers=1)

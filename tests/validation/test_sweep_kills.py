@@ -1,5 +1,6 @@
 """Sweeps on real processes: a worker or the client is killed, the user interrupts, a scheduler is given."""
 
+import logging
 import os
 import signal
 import subprocess
@@ -160,6 +161,9 @@ def test_a_sample_that_kills_its_worker_is_the_only_one_lost(run, scheduler, wor
     monkeypatch.setitem(SETTINGS, "distributed.scheduler.allowed-failures", 0)
     with connected(scheduler, 1, print) as client:
         found = dict(computed(client, chunks(), Plan((), (), {}), run))
+        levels = client.run(lambda: logging.getLogger("tornado.application").getEffectiveLevel())
     states = [(one["sample"], one["status"]) for number in (0, 1) for one in found[number]]
     assert states == [(0, "ok"), (1, "ok"), (2, "failed"), (3, "ok")]
     assert words in found[1][0]["error"]
+    silenced = set(levels.values()) == {logging.CRITICAL}  # also in a worker that took another's place
+    assert silenced == (scheduler == "processes")

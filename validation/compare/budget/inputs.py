@@ -21,7 +21,8 @@ from solver.runs.result import CellHistory, cell_dataset
 from validation.compare.budget.spread import RunningSpread, relative_spread
 from validation.metrics.quantities import CYCLE_QUANTITIES, DERIVED_QUANTITIES
 from validation.runs.cache import Cache, Entry
-from validation.runs.cached import Remark, cached, canonical, key_of
+from validation.runs.cached import Remark, cached
+from validation.runs.keys import canonical, key_of
 from validation.runs.reduced_model import run_times
 from validation.sweep.design import Design, points
 from validation.sweep.display import Display
