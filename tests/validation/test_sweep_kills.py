@@ -110,7 +110,7 @@ def test_a_client_that_is_killed_goes_on_where_it_was(study, expected):
     assert all(part.stat().st_mtime_ns == time for part, time in kept.items())
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.long)])
 def test_an_interrupt_keeps_what_is_done_and_leaves_no_process(study, expected, number):
     process = started(study)
     wait_for(lambda: len(parts(study)) >= 2, process)
