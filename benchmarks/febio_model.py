@@ -17,6 +17,7 @@ from febio_io.feb.from_case import Choices, artery_model
 from febio_io.feb.model import MeshSize
 from febio_io.feb.structure import read_structure
 from febio_io.feb.writer import write_model
+from solver.case.periodic_outlet import periodic_outlet_flow
 
 CASE = Path(__file__).parents[1] / "cases" / "calcification.yaml"
 
@@ -35,7 +36,7 @@ def main() -> int:
     fine = max(1, round((options.elements / 7920) ** (1 / 3)))
     n_z = max(30, round(options.elements / (24 * fine * 11 * fine)))
     size = MeshSize(24 * fine, 8 * fine, 3 * fine, n_z)
-    model = artery_model(load_case_file(CASE).variants["local"], Choices(size))
+    model = artery_model(load_case_file(CASE).variants["local"], Choices(size), periodic_outlet_flow)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "model.feb"
         timed(f"writing {size.n_elements} elements", lambda: write_model(model, path))

@@ -1,16 +1,20 @@
 """Check case files, or print their JSON schema: `python -m cases FILE…`, `python -m cases --schema`."""
 
+from __future__ import annotations
+
 import argparse
 import json
 import sys
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from cases.errors import CaseError
-from cases.reading.case_file import CaseFile, load_case_file
-from cases.reading.json_schema import case_file_schema
-from cases.sections.case import Case
-from cases.sections.doubts import doubts_of
 from cases.shell.command import COMPLETE, WRONG_INPUT, concluded
+from cases.shell.interrupts import interrupts_deferred
+
+if TYPE_CHECKING:
+    from cases.reading.case_file import CaseFile
+    from cases.sections.case import Case
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -31,6 +35,10 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
 
 
 def _run(options: argparse.Namespace) -> int:
+    with interrupts_deferred():
+        from cases.reading.case_file import load_case_file
+        from cases.reading.json_schema import case_file_schema
+
     if options.schema:
         print(json.dumps(case_file_schema(), indent=2))
         return COMPLETE
@@ -46,6 +54,8 @@ def _run(options: argparse.Namespace) -> int:
 
 def print_summary(file: CaseFile) -> None:
     """Print one line for each variant of a file, and on stderr what is seldom meant."""
+    from cases.sections.doubts import doubts_of
+
     for name, case in file.variants.items():
         print(f"{file.path}: {name}: {summary(case)}")
         for doubt in doubts_of(case):

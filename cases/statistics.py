@@ -61,6 +61,7 @@ BUDGET_PARTS = {  # of an error, in words
     "mesh": "uncertainty of the 3D mesh",
     "grid": "uncertainty of the 2D grid and time step",
     "inputs": "uncertainty of the inputs",
+    "shared_inputs": "uncertainty of the inputs that both models share",
     "uncertainty": "uncertainty of the comparison",
     "model_low": "least error of the model",
     "model_high": "largest error of the model",

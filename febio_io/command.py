@@ -104,7 +104,7 @@ def _run_plot(options: argparse.Namespace) -> list[str]:
             summary = summarize(plot)
             return _shown(summary, summary_lines(summary), options.json)
         states = None if options.states is None else parse_states(options.states, plot.n_states)
-        from rich.progress import SpinnerColumn  # only an export needs them
+        from rich.progress import SpinnerColumn
 
         from cases.shell.terminal import progress
 

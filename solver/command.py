@@ -1,21 +1,21 @@
 """``python -m solver CASE.yaml [--variant NAME] --output FILE.nc``: run the reduced model alone."""
 
+from __future__ import annotations
+
 import argparse
 import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from cases.reading.case_file import CaseFile, load_case_file
-from cases.sections.doubts import doubts_of
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.terminal import progress_bar
-from solver.case.locality import locality_warning
-from solver.case.periodicity import periodicity_warning
+from cases.shell.interrupts import interrupts_deferred
 from solver.errors import SolverError
-from solver.model.diagnostics import Limits
-from solver.runs.files import check_folder
-from solver.runs.resumable import pieces_folder, run_identity, run_to_file
+from solver.runs.files import check_folder, pieces_folder
+
+if TYPE_CHECKING:
+    from cases.reading.case_file import CaseFile
 
 USUAL = "what is usual: docs/methods.md, Diagnostics; solver.limits in the case stops a run beyond a limit"
 
@@ -56,6 +56,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
+    with interrupts_deferred():
+        from cases.reading.case_file import load_case_file
+        from cases.sections.doubts import doubts_of
+        from cases.shell.terminal import progress_bar
+        from solver.case.locality import locality_warning
+        from solver.case.periodicity import periodicity_warning
+        from solver.model.diagnostics import Limits
+        from solver.runs.resumable import run_identity, run_to_file
+
     check_folder(options.output)
     file = load_case_file(options.case)
     variant = chosen_variant(file, options.variant)

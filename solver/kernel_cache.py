@@ -12,8 +12,6 @@ from collections.abc import Iterable
 from importlib.metadata import version
 from pathlib import Path
 
-import numba
-
 ROOT = Path(__file__).parents[1]
 
 
@@ -77,6 +75,8 @@ def keep_kernels() -> None:
 
     Without any writable place numba keeps to its own choice. An NUMBA_CACHE_DIR that the user set stands.
     """
+    import numba
+
     if "NUMBA_CACHE_DIR" in os.environ:
         return
     folder = usable_folder(sources_digest(ROOT / kernels for kernels in KERNELS))

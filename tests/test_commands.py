@@ -94,8 +94,9 @@ def test_help_names_what_was_called(name, capsys, monkeypatch):
 @pytest.mark.parametrize(
     ("package", "module", "number", "said"),
     [
-        ("cases", "numpy", signal.SIGTERM, ""),
-        ("solver", "numba", signal.SIGINT, ""),
+        ("cases", "cases.command", signal.SIGTERM, ""),
+        ("cases", "numpy", signal.SIGTERM, "interrupted\n"),
+        ("validation.converge", "numba", signal.SIGINT, NOTHING + "\n"),
         ("febio_io.feb", "febio_io.feb.command", signal.SIGTERM, ""),
         (
             "validation.compare",
@@ -109,6 +110,27 @@ def test_help_names_what_was_called(name, capsys, monkeypatch):
 def test_an_interrupt_while_modules_load_is_a_line_at_most(package, module, number, said):
     done = python("-c", INTERRUPTED, package, module, str(int(number)), "absent")
     assert (done.returncode, done.stdout, done.stderr) == (130, "", said)
+
+
+LIBRARIES = ("dask", "matplotlib", "numba", "numpy", "pandas", "pint", "pyvista", "rich", "scipy", "xarray")
+HELP = """
+import sys
+from importlib import import_module
+
+for package in {packages}:
+    try:
+        import_module(package + ".command").main(["--help"])
+    except SystemExit:
+        print(package, *sorted(set(sys.modules) & {libraries}), file=sys.stderr)
+"""
+
+
+def test_help_of_no_command_loads_a_library_that_is_slow_to_load():
+    light = [package for package, _ in COMMANDS.values() if not package.startswith("febio_io")]
+    packages = [*light, "febio_io", "febio_io.run", "febio_io.feb"]  # which are made of NumPy's types
+    done = python("-c", HELP.format(packages=packages, libraries=set(LIBRARIES)))
+    loaded = dict.fromkeys(light, "") | dict.fromkeys(packages[len(light) :], " numpy")
+    assert done.stderr.splitlines() == [package + libraries for package, libraries in loaded.items()]
 
 
 def test_a_closed_pipe_ends_quietly(tmp_path):

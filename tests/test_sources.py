@@ -157,7 +157,7 @@ def digests(root):
     return {what: sources_digest(root / source for source in sources) for what, sources in kinds.items()}
 
 
-ALL_RESULTS = {"reduced model", "reference", "sweep", "input uncertainty"}
+ALL_RESULTS = {"reduced model", "reference", "budget", "sweep", "input uncertainty"}
 
 
 @pytest.mark.parametrize(
@@ -165,7 +165,7 @@ ALL_RESULTS = {"reduced model", "reference", "sweep", "input uncertainty"}
     [
         ("validation/compare/side_by_side.py", set()),
         ("validation/metrics/bands.py", {"sweep"}),
-        ("febio_io/xplt/fields.py", {"reference", "sweep"}),
+        ("febio_io/xplt/fields.py", {"reference", "budget", "sweep"}),
         ("febio_io/views/grids.py", set()),
         ("solver/schemes/rows/step.py", {"kernels", "tables"} | ALL_RESULTS),
         ("validation/mapping/profiles.py", {"kernels"} | ALL_RESULTS),

@@ -6,6 +6,7 @@ from pydantic import ConfigDict, Field, JsonValue
 
 from cases.results.record import Record
 
+OK, FAILED = "ok", "failed"  # what became of a sample
 Count = Annotated[int, Field(ge=0)]
 State = Literal["finished", "interrupted", "running"]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -103,6 +104,13 @@ class SampleCounts(Record):
     total: Count
 
 
+class DrawnPage(Record):
+    """The digest of all that a page was drawn from and by, and those of its files."""
+
+    drawn_from: str
+    files: dict[str, str]
+
+
 class SweepAccount(Record):
     """All that is not of one sample; `digest` is that of what determines the sweep's numbers."""
 
@@ -122,3 +130,4 @@ class SweepAccount(Record):
     state: State
     counts: SampleCounts
     sensitivity: tuple[SobolIndex, ...] | None = None
+    page: DrawnPage | None = None

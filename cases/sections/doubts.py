@@ -32,8 +32,8 @@ def doubts_of(case: Case) -> Iterator[str]:
                 f"{name}: the cycle{file} takes {waveform.period:g} s, "
                 f"a heart's {SHORTEST:g} to {LONGEST:g} s: {mistake}?"
             )
-    mean = mean_of(case.inlet)
-    if case.inlet.kind != "pressure" and mean < 0:
+    flows_in = case.inlet.kind in ("velocity", "flow")
+    if flows_in and isinstance(case.inlet, PrescribedInlet) and (mean := mean_of(case.inlet)) < 0:
         unit = "m/s" if case.inlet.kind == "velocity" else "m^3/s"
         yield (
             f"inlet: a mean inflow below zero, {mean:.4g} {unit}: blood leaves by the inlet; "

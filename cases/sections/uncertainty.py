@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from cases.errors import QuantityError, RefusedValueError
 from cases.sections.base import Section
-from cases.values.kinds import Context, ValueKind, counted, one_of, refused, whole_number
+from cases.values.kinds import Context, Switch, ValueKind, counted, one_of, refused, whole_number
 from cases.values.units import parse_ratio
 from cases.values.wording import choices, shown, unknown_key
 
@@ -81,7 +81,22 @@ def _checked(form: str, stated: object, place: tuple[str, ...]) -> object:
     return ratio
 
 
-Inputs = Annotated[tuple[UncertainInput, ...], ValueKind(_inputs, ALLOWED, {"type": "object"})]
+_QUANTITY = {"type": ["string", "number"]}
+_SCHEMA = {
+    "type": "object",
+    "additionalProperties": {
+        "type": "object",
+        "properties": {
+            "standard_deviation": _QUANTITY,
+            "range": {"type": "array", "items": _QUANTITY},
+            "relative": _QUANTITY,
+            "reason": {"type": "string"},
+        },
+        "required": ["reason"],
+        "additionalProperties": False,
+    },
+}
+Inputs = Annotated[tuple[UncertainInput, ...], ValueKind(_inputs, ALLOWED, _SCHEMA)]
 
 
 class Uncertainty(Section):
@@ -97,6 +112,9 @@ class Uncertainty(Section):
     inputs : tuple of UncertainInput
         A standard deviation, stated or ``relative`` to the case's value, is that of a normal distribution; a
         range is one in which all values are equally likely.
+    shared_with_reference : bool
+        Whether the reference was computed with the same values: an error in them is then in both, and no part
+        of their difference.
     """
 
     method: Annotated[Method, one_of(Method)] = "latin_hypercube"
@@ -105,3 +123,4 @@ class Uncertainty(Section):
         int, whole_number(f"a whole number from 0 to {MOST_SEED}", lambda n: 0 <= n <= MOST_SEED)
     ] = 0
     inputs: Inputs
+    shared_with_reference: Switch = True

@@ -9,6 +9,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from cases.errors import QuantityError
+from cases.values.common_units import common_unit
 from cases.values.wording import nearest, shown
 
 if TYPE_CHECKING:
@@ -132,7 +133,7 @@ def parse_number(text: str, factor: Decimal) -> float:
 
 @functools.cache
 def _registry() -> "pint.UnitRegistry[Decimal]":
-    import pint  # here, since it is slow to import and many need only the types of a case
+    import pint
 
     # decimal factors keep 0.6 MPa at exactly 600000 Pa
     return pint.UnitRegistry(non_int_type=Decimal)
@@ -140,23 +141,37 @@ def _registry() -> "pint.UnitRegistry[Decimal]":
 
 @functools.cache
 def _base_units(unit: str) -> tuple[Decimal, object]:
-    """Return the SI factor of a unit and its base units; raises `pint.errors.PintError`."""
+    """Return the SI factor of any unit and its base units; raises `pint.errors.PintError`."""
     registry = _registry()
     factor, base = registry.get_base_units(registry.parse_units(BARE_EXPONENT.sub(r"^\1", unit)))
     return Decimal(str(factor)), base
 
 
 def _si_factor(unit: str, dimension: Dimension) -> Decimal:
-    from pint.errors import PintError
-
     plain_unit = unit.translate(SUPERSCRIPTS)
     if UNIT.fullmatch(plain_unit) is None:
         raise QuantityError("not a number with a unit")
-    try:
-        factor, base = _base_units(plain_unit)
-    except (PintError, ValueError) as error:  # ValueError: the word nan
-        raise QuantityError(f"unknown unit {shown(unit)}{nearest(unit, dimension.common_units)}") from error
-    # base units, not dimensionality: pint counts an angle as dimensionless, and 15 mm rad is no length
-    if base != _base_units(dimension.unit)[1]:
+    factor, fits = _common_factor(plain_unit, dimension) or _any_factor(unit, plain_unit, dimension)
+    if not fits:
         raise QuantityError(f"{unit} is no unit of {dimension.name}")
     return factor
+
+
+def _common_factor(unit: str, dimension: Dimension) -> tuple[Decimal, bool] | None:
+    """Return the factor of a unit of common terms, and whether it is one of a dimension; None for others."""
+    found, wanted = common_unit(unit), common_unit(dimension.unit)
+    if found is None or wanted is None:
+        return None
+    return found[0], found[1] == wanted[1]
+
+
+def _any_factor(stated: str, unit: str, dimension: Dimension) -> tuple[Decimal, bool]:
+    from pint.errors import PintError
+
+    try:
+        factor, base = _base_units(unit)
+    except (PintError, ValueError) as error:  # ValueError: the word nan
+        message = f"unknown unit {shown(stated)}{nearest(stated, dimension.common_units)}"
+        raise QuantityError(message) from error
+    # base units, not dimensionality: pint counts an angle as dimensionless, and 15 mm rad is no length
+    return factor, base == _base_units(dimension.unit)[1]

@@ -3,28 +3,27 @@
 It alone joins the two models: the reduced one finds the periodic state in which FEBio's Windkessel starts.
 """
 
+from __future__ import annotations
+
 import argparse
 import sys
 import time
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from cases.arrays import Floats
 from cases.errors import QuantityError
-from cases.reading.case_file import CaseFile, load_case_file
-from cases.sections.case import Case
-from cases.sections.references.febio import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.terminal import progress_bar
-from cases.values.ranges import TIME_STEPS
-from cases.values.units import DIMENSIONS, parse_quantity
-from febio_io.feb.from_case import Choices, artery_model
+from cases.shell.interrupts import interrupts_deferred
 from febio_io.feb.model import FebioModelError, MeshSize, Windkessel
 from febio_io.feb.windkessel_start import CLOSE
-from febio_io.feb.writer import write_model
-from solver.case.periodic_outlet import periodic_outlet_flow
-from solver.case.periodicity import PERIODIC
+
+if TYPE_CHECKING:
+    from cases.reading.case_file import CaseFile
+    from cases.sections.case import Case
+    from febio_io.feb.from_case import Choices
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -34,6 +33,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
+    with interrupts_deferred():
+        from cases.reading.case_file import load_case_file
+        from febio_io.feb.from_case import artery_model
+        from febio_io.feb.writer import write_model
+
     if options.output.suffix != ".feb":
         raise FebioModelError(f"--output {options.output}: allowed: a name that ends in .feb")
     file = load_case_file(options.case, results_exist=False)
@@ -54,12 +58,18 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _periodic_flow(label: str, case: Case) -> Floats:
+    with interrupts_deferred():
+        from cases.shell.terminal import progress_bar
+        from solver.case.periodic_outlet import periodic_outlet_flow
+
     with progress_bar(label) as progress:
         return periodic_outlet_flow(case, progress)
 
 
 def _started(outlet: Windkessel) -> str:
     """Tell where a Windkessel starts and what that saves."""
+    from solver.case.periodicity import PERIODIC
+
     cycles = outlet.cycles_from_rest
     return (
         f"outlet: starts within {100 * PERIODIC:g} % of its periodic pressure by the reduced model, "
@@ -114,6 +124,9 @@ def _variant(file: CaseFile, wanted: str | None) -> tuple[str, Case]:
 
 def _choices(options: argparse.Namespace, case: Case) -> Choices:
     """Options where they are given, else what the case states, else the defaults."""
+    from cases.sections.references.febio import MOST_CYCLES, MOST_STATES_PER_CYCLE, FebioReference, Generate
+    from febio_io.feb.from_case import Choices
+
     reference = case.reference
     own = reference.generate if isinstance(reference, FebioReference) else None
     stated = own or Generate()
@@ -152,6 +165,9 @@ def _count(option: str, given: int | None, otherwise: int, most: int) -> int:
 
 
 def _time_step(text: str) -> float:
+    from cases.values.ranges import TIME_STEPS
+    from cases.values.units import DIMENSIONS, parse_quantity
+
     try:
         step = parse_quantity(text, DIMENSIONS[TIME_STEPS.dimension])
     except QuantityError as error:

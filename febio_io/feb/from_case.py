@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from cases.arrays import Floats
 from cases.sections.calcification import LocalCalcification
@@ -244,6 +243,8 @@ def _windkessel(
 def _signal(waveform: Waveform | None, value: float | None, fourier: FourierSeries | None) -> Signal:
     """Give the one that is stated as a function of time; waveforms by the monotone cubic (PCHIP)."""
     if waveform is not None:
+        from scipy.interpolate import PchipInterpolator
+
         return PchipInterpolator(waveform.times, waveform.values)
     if fourier is not None:
         return partial(_fourier, fourier)

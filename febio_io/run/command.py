@@ -7,10 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from rich.progress import BarColumn, TimeElapsedColumn, TimeRemainingColumn
-
 from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
-from cases.shell.terminal import progress
 from febio_io.errors import FebioFileError
 from febio_io.feb.structure import Contents, read_structure
 from febio_io.feb.summary import problem_lines
@@ -146,6 +143,10 @@ def _last_error(log: Log) -> str:
 @contextmanager
 def _shown(model: Path, contents: Contents) -> Iterator[Watch]:
     """Show how far the run is, if there is a terminal to show it on."""
+    from rich.progress import BarColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    from cases.shell.terminal import progress
+
     reached = "{task.completed:.4g} of {task.total:.4g} s, step {task.fields[steps]}{task.fields[retries]}"
     columns = ("{task.description}", BarColumn(), reached, TimeElapsedColumn(), TimeRemainingColumn())
     with progress(*columns) as display:

@@ -1,6 +1,7 @@
 """Section of the error budget: what of each error is owed to inflow, meshes, inputs and the model."""
 
 import math
+from collections.abc import Iterable
 from functools import partial
 
 from reports.blocks import Block, Bullets, Column, Figure, Paragraph, Table
@@ -20,6 +21,7 @@ _COLUMNS = {
     "mesh": "3D mesh",
     "grid": "2D grid, step",
     "inputs": "inputs",
+    "shared_inputs": "shared inputs",
     "uncertainty": "all uncertain",
 }
 _BARS = ("error", "inflow", "matched", "mesh", "grid", "inputs")
@@ -36,11 +38,18 @@ def _order(found: Budget) -> str:
     return " / ".join(orders)
 
 
+def _known(comparison: Comparison, parts: Iterable[str]) -> list[str]:
+    """Return the parts that are known of some budget."""
+    found = [each for name in comparison.variants for each in budgets(comparison, name)]
+    return [part for part in parts if any(of[part] is not None for of in found)]
+
+
 def _table(comparison: Comparison, number: int, variant: str) -> Table:
+    parts = _known(comparison, _COLUMNS)
     rows = tuple(
         (
             quantity_words(found.quantity),
-            *(ABSENT if found[part] is None else share(found[part]) for part in _COLUMNS),
+            *(ABSENT if found[part] is None else share(found[part]) for part in parts),
             _interval(found),
             _order(found),
         )
@@ -50,11 +59,12 @@ def _table(comparison: Comparison, number: int, variant: str) -> Table:
         f"budget-{number}",
         f"Variant {variant}: root mean square over all cells and states, or size of a number of the cycle, "
         "relative to 3D. What is uncertain counts with its factor of safety; the model's error lies in the "
-        f"interval of the error with the same inflow ± all that is uncertain and known. {ABSENT}: not known. "
+        "interval of the error with the same inflow ± all that is uncertain and known; inputs that both "
+        f"models share change both and do not count. {ABSENT}: not known. "
         "Orders are observed: of the 3D mesh, the 2D grid and the 2D time step.",
         (
             Column("quantity", "prose"),
-            *(Column(title, "number") for title in _COLUMNS.values()),
+            *(Column(_COLUMNS[part], "number") for part in parts),
             Column("error of the model", "number"),
             Column("orders", "number"),
         ),
@@ -70,8 +80,9 @@ def _shown(comparison: Comparison) -> list[str]:
 
 def _figure(comparison: Comparison, quantity: str) -> Figure:
     found = {v: b for v in comparison.variants if (b := budget(comparison, v, quantity))}
+    parts = _known(comparison, _BARS)
     bars = [
-        BudgetBars(variant, tuple(_percent(of[part]) for part in _BARS), _model(of))
+        BudgetBars(variant, tuple(_percent(of[part]) for part in parts), _model(of))
         for variant, of in found.items()
     ]
     said = "; ".join(f"{variant}: {sentence(of)}" for variant, of in found.items())
@@ -81,7 +92,7 @@ def _figure(comparison: Comparison, quantity: str) -> Figure:
         caption=f"Error of the {quantity_words(quantity)} and what it is owed to. {said}.",
         alt=f"Bars of the error of the {quantity_words(quantity)}, of the parts of its uncertainty and of "
         f"the error with the same inflow, for variants {listed(found)}. {said}.",
-        drawing=partial(budget_bars, [_COLUMNS[part] for part in _BARS], bars),
+        drawing=partial(budget_bars, [_COLUMNS[part] for part in parts], bars),
         csv=comma_separated(("variant", "part", "value"), rows),
     )
 
@@ -97,16 +108,17 @@ def _model(found: Budget) -> tuple[float, float]:
 def _unknown(comparison: Comparison) -> tuple[str, ...]:
     """Say which parts are not known, and of which variants."""
     said = []
-    for part, words in (
-        ("inflow", "what the inflow of the 3D mesh changes (compare.matched_inflow)"),
-        ("mesh", "the error of the 3D mesh (reference.levels)"),
-        ("grid", "that of the 2D grid and time step"),
-        ("inputs", "what uncertain inputs change"),
+    for parts, words in (
+        (("inflow",), "what the inflow of the 3D mesh changes (compare.matched_inflow)"),
+        (("mesh",), "the error of the 3D mesh (reference.levels)"),
+        (("grid",), "that of the 2D grid and time step"),
+        (("inputs", "shared_inputs"), "what uncertain inputs change"),
     ):
         names = [
             name
             for name in comparison.variants
-            if (found := budgets(comparison, name)) and all(of[part] is None for of in found)
+            if (found := budgets(comparison, name))
+            and all(of[each] is None for of in found for each in parts)
         ]
         said += [f"Not known of {listed(names)}: {words}."] if names else []
     return tuple(said)

@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from cases.results.sweep import KeptOutput, VariedParameter
+from cases.results.sweep import OK, KeptOutput, VariedParameter
 from reports.blocks import Report
 from reports.figures.two_processes import draw
 from reports.html.gallery import Entry, summed_up
 from reports.pages import rendered, write_pages
 from reports.sweep.amounts import DESIGNS, is_error
-from reports.sweep.folder import OK, STUDY, Sweep, load_sweep, shown
+from reports.sweep.folder import STUDY, Sweep, load_sweep, shown
 from reports.sweep.held import all_held, sentence
 from reports.sweep.indices import indices_section
 from reports.sweep.provenance import failures_section, provenance_section

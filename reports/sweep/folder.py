@@ -8,12 +8,11 @@ import pandas as pd
 from pydantic import TypeAdapter
 
 from cases.arrays import Floats
-from cases.results.sweep import KeptOutput, OutputBand, SweepAccount, VariedParameter
+from cases.results.sweep import FAILED, OK, KeptOutput, OutputBand, SweepAccount, VariedParameter
 from reports.errors import ReportError
 from reports.result.strict_json import read_json
 
 STUDY, SAMPLES = "study.json", "samples"
-OK, FAILED = "ok", "failed"
 _UNREADABLE = (OSError, ValueError)  # pyarrow's own errors are ValueErrors
 
 

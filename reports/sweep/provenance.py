@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from cases.results.sweep import KeptOutput, VariedParameter
+from cases.results.sweep import FAILED, KeptOutput, VariedParameter
 from reports.blocks import Block, Column, Listing, Paragraph, Section, Table, numbers, prose
 from reports.sections.provenance import pairs
 from reports.sweep.amounts import DESIGNS, amount, is_error
-from reports.sweep.folder import FAILED, Sweep
+from reports.sweep.folder import Sweep
 from reports.wording.numbers import ABSENT, listed, rounded
 
 _MOST_FAILURES = 200

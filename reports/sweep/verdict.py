@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from cases.results.metric_row import Status
-from cases.results.sweep import VariedParameter
+from cases.results.sweep import FAILED, VariedParameter
 from reports.blocks import Block, Bullets, Column, Paragraph, Section, Table, Warnings, numbers
 from reports.sweep.amounts import amount, ends, is_error
-from reports.sweep.folder import FAILED, Sweep
+from reports.sweep.folder import Sweep
 from reports.sweep.held import Held, sentence
 from reports.wording.numbers import ABSENT, counted, share
 

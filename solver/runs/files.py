@@ -1,12 +1,16 @@
 """Results on disk: NetCDF-4, written whole or not at all."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
-
-import xarray as xr
+from typing import TYPE_CHECKING
 
 from cases.shell.whole import write_whole, writing
 from solver.errors import SolverError
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def check_folder(path: Path) -> None:
@@ -24,6 +28,11 @@ def check_folder(path: Path) -> None:
         raise SolverError(f"{path}: is a folder, not a result file")
     if not os.access(folder, os.W_OK | os.X_OK):
         raise SolverError(f"{path}: its folder cannot be written to")
+
+
+def pieces_folder(result: Path) -> Path:
+    """Folder of the pieces of a result file."""
+    return result.with_name(result.name + ".pieces")
 
 
 def write_netcdf(dataset: xr.Dataset, path: Path, unlimited: tuple[str, ...] = ()) -> None:

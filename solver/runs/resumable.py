@@ -28,7 +28,7 @@ from solver.marching.semi_implicit import Progress
 from solver.marching.walk import Kept, Stop, history_of
 from solver.model.diagnostics import Diagnostics
 from solver.model.parameters import Model
-from solver.runs.files import write_netcdf
+from solver.runs.files import pieces_folder, write_netcdf
 from solver.runs.result import CellHistory, cell_dataset
 
 PIECE = 25  # states
@@ -46,11 +46,6 @@ class Piece:
     sweeps: int
     longest_step: float
     kept: Kept
-
-
-def pieces_folder(result: Path) -> Path:
-    """Folder of the pieces of a result file."""
-    return result.with_name(result.name + ".pieces")
 
 
 def run_identity(text: str, variant: str, inputs: Iterable[Path]) -> str:

@@ -13,7 +13,7 @@ def test_a_line_for_each_variant(ready_file, capsys):
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == (
         f"{ready_file}: none: calcification none, 120 x 48 cells, 3 cycles of 0.79733 s, "
-        "reference none.xplt, none.log, none_axis_nodes.txt, none_mid_elements.txt, 2 bands"
+        "reference none.xplt, none_16.xplt, none.log, none_axis_nodes.txt, none_mid_elements.txt, 2 bands"
     )
     assert [line.split(": ")[1] for line in lines] == ["none", "axisymmetric", "local"]
 
@@ -53,6 +53,7 @@ def accepts(schema, value, definitions):
         "object": dict,
         "array": list,
         "string": str,
+        "boolean": bool,
         "integer": int,
         "number": int | float,
         "null": type(None),
@@ -91,6 +92,7 @@ def test_the_schema_accepts_the_ready_file_and_refuses_mistakes(ready_file):
         ("pattern: local", "pattern: lokal"),
         ("x: [5 mm, 10 mm]", "x: [5 mm]"),
         ("variants:", "variant:"),
+        ("standard_deviation: 0.12 mm", "deviation: 0.12 mm"),
         ("closure: average", "limiter: van_leer, error_tolerance: 1 %"),
         ("kind: velocity, waveform", "kind: flux, waveform"),
         ("offset: 9330 Pa", "compliance: 1 m^3/Pa"),

@@ -2,13 +2,14 @@ import math
 from decimal import Decimal
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from cases.errors import QuantityError
 from cases.fields import FIELDS
 from cases.quantities import compared_quantities
-from cases.values.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity, parse_ratio
+from cases.values.common_units import BASES, UNITS, common_unit
+from cases.values.units import DIMENSION_OF_UNIT, DIMENSIONS, _base_units, parse_quantity, parse_ratio
 
 FACTORS = {
     ("length", "mm"): "0.001",
@@ -134,3 +135,30 @@ def test_every_compared_quantity_can_carry_a_limit():
 def test_suggested_units_belong_to_their_dimension(dimension):
     for unit in dimension.common_units:
         assert parse_quantity(f"1 {unit}", dimension) > 0
+
+
+POWERS = ("", "2", "^3", "-1", "^-2")
+TERMS = st.tuples(st.sampled_from(sorted(UNITS)), st.sampled_from(POWERS)).map("".join)
+
+
+@given(TERMS, st.lists(st.tuples(st.sampled_from((" ", "/", "*", " / ")), TERMS).map("".join), max_size=3))
+@example("ml", ["/mmHg"])
+@example("mmHg", [" s", "/ml"])
+def test_units_that_are_known_without_pint_are_those_of_pint(first, others):
+    unit = first + "".join(others)
+    factor, exponents = common_unit(unit)
+    theirs, base = _base_units(unit)
+    assert float(factor) == float(theirs)
+    powers = [f"{name}^{power}" for name, power in zip(BASES, exponents, strict=True) if power]
+    assert base == _base_units(" ".join(powers) or "m/m")[1]
+
+
+@pytest.mark.parametrize("unit", ["cmH2O", "mm2kg", "mm °", "mm %", "inch", "Mm", "mm cmH2O"])
+def test_any_other_unit_is_left_to_pint(unit):
+    assert common_unit(unit) is None
+
+
+def test_every_suggested_unit_is_known_without_pint():
+    for dimension in DIMENSIONS.values():
+        for unit in (dimension.unit, *dimension.common_units):
+            assert common_unit(unit) is not None, unit

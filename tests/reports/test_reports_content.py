@@ -369,7 +369,7 @@ def test_settings_are_named_in_words_with_their_unit(tmp_path: Path, small: synt
 
 def _extra(variant: str, **what: Any) -> dict[str, Any]:
     blank = dict.fromkeys(("i", "j", "t_s", "rom", "reference", "error", "band"))
-    return {"case": "synthetic", "variant": variant, "unit": "1", "status": "", **blank, **what}
+    return {"case": "synthetic", "variant": variant, "unit": "1", "status": "", "inflow": "", **blank, **what}
 
 
 def test_rows_that_the_report_does_not_know_are_shown(tmp_path: Path, small: synthetic.Setup) -> None:

@@ -28,10 +28,10 @@ def section(comparison: Comparison) -> Blocks:
 
 @pytest.fixture
 def added() -> Iterator[int]:
-    """Its number: it stands before the curves over the cycle."""
+    """Its number: it stands before the curves over the cycle, and no error budget stands there."""
     at = SECTIONS.index(cycle.section)
     SECTIONS.insert(at, section)
-    yield at + 1
+    yield at
     SECTIONS.remove(section)
 
 

@@ -14,7 +14,7 @@ def row(statistic, error, rom=None, reference=None, variant="local"):
 
 
 def comparison(*rows):
-    index = {(r.variant, r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in rows}
+    index = {(r.variant, r.quantity, r.statistic, r.i, r.j, r.t_s, r.inflow): r for r in rows}
     return SimpleNamespace(
         metrics=Metrics(rows, index),
         variants=("none", "local"),

@@ -12,7 +12,7 @@ import xarray as xr
 
 import solver.command as command
 import solver.runs.resumable as running
-from solver.runs.resumable import pieces_folder
+from solver.runs.files import pieces_folder
 
 ROOT = Path(__file__).parents[2]
 BOUNDARIES = {
@@ -51,7 +51,7 @@ def run(monkeypatch, capsys):
         with monkeypatch.context() as patched:
             patched.setattr(running, "PIECE", 4)
             if after is not None:
-                patched.setattr(command, "progress_bar", Interrupting(after))
+                patched.setattr("cases.shell.terminal.progress_bar", Interrupting(after))
             status = command.main()
         errors = capsys.readouterr().err.splitlines(keepends=True)
         return status, "".join(line for line in errors if "is not periodic yet" not in line)

@@ -13,7 +13,7 @@ import solver.command as command
 import solver.runs.resumable as running
 from cases.fields import FIELDS
 from solver.model.diagnostics import Diagnostics
-from solver.runs.resumable import pieces_folder
+from solver.runs.files import pieces_folder
 
 ROOT = Path(__file__).parents[2]
 VARIABLES = {
@@ -64,6 +64,15 @@ def result(run, case_file):
     ]
     with xr.open_dataset(output) as dataset:
         yield dataset.load()
+
+
+def test_what_is_seldom_meant_is_warned_of(run, case_file):
+    case_file.with_name("inlet.csv").write_text(
+        "t_ms,mean_velocity_cm_s\n0,8\n25,20\n75,12\n100,8\n", encoding="utf-8"
+    )
+    status, _, errors = run(case_file, "--variant", "healthy", "--output", case_file.with_name("run.nc"))
+    assert status == 0
+    assert errors.startswith("warning: inlet: the cycle of inlet.csv takes 0.1 s, a heart's 0.2 to 3 s")
 
 
 def test_the_module_runs_as_a_command(case_file):

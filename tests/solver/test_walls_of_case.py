@@ -1,7 +1,5 @@
 """From a case to the walls that the flow sees, and a coupled run from the command line."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +7,7 @@ import pytest
 import xarray as xr
 from test_resume import assert_same_bytes, changed, run  # noqa: F401
 
+import solver.command as command
 from cases.reading.case_file import load_case_file
 from solver.case.model import default_output_times, model_of
 from solver.case.run import run_case
@@ -97,7 +96,7 @@ def test_an_interrupted_coupled_run_goes_on_bit_by_bit(case_file, run, control):
     assert_same_bytes(folder / "whole.nc", folder / "parts.nc")
 
 
-def test_the_command_warns_where_a_section_is_not_local(case_file, monkeypatch):
+def test_the_command_warns_where_a_section_is_not_local(case_file, capsys):
     edited(case_file, f"law: membrane, {BASES['thick']}")
     changed(
         case_file,
@@ -107,14 +106,7 @@ def test_the_command_warns_where_a_section_is_not_local(case_file, monkeypatch):
     changed(case_file, "viscosity: 0.003 Pa s", "viscosity: 0.05 Pa s")
     changed(case_file, "x: [5 mm, 10 mm]", "x: [0.2 m, 0.6 m]")
     output = case_file.parent / "long.nc"
-    done = subprocess.run(  # noqa: S603
-        [sys.executable, "-m", "solver", case_file, "--variant", "patch", "--output", output],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
+    assert command.main([str(case_file), "--variant", "patch", "--output", str(output)]) == 0
     with xr.open_dataset(output) as result:
         far = result.attrs["wall_locality_error"] > 1e-3
-    assert ("docs/coupled_model.md" in done.stderr) == far
+    assert ("docs/coupled_model.md" in capsys.readouterr().err) == far

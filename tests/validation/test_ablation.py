@@ -12,6 +12,7 @@ from cases.sections.wall import MembraneWall
 from solver.errors import ModelError
 from validation.ablation import command as ablation
 from validation.ablation.ladder import models_between
+from validation.ablation.study import ablation_row
 from validation.ablation.thesis_sectors import read_table, sector_errors
 from validation.errors import ValidationError
 
@@ -76,7 +77,7 @@ def test_a_model_that_fails_is_a_row(case_of, monkeypatch):
 
     monkeypatch.setattr(ablation, "run_reduced_model", fails)
     reference = type("Reference", (), {"alignment": None})()
-    row = ablation.ablation_row("local", "membrane wall", case_of(), reference, None)
+    row = ablation_row("local", "membrane wall", case_of(), reference, None)
     assert (row.failure, row.radius_rms) == ("the membrane buckles", None)
 
 

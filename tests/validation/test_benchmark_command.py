@@ -25,7 +25,7 @@ def tiny(tmp_path, monkeypatch):
     return path
 
 
-@pytest.mark.parametrize(("quick", "repeat"), [(False, 2), (True, 1)])
+@pytest.mark.parametrize(("quick", "repeat"), [pytest.param(False, 2, marks=pytest.mark.long), (True, 1)])
 def test_every_row_is_measured_shown_and_kept(tiny, monkeypatch, capsys, quick, repeat):
     monkeypatch.setattr(benchmark, "QUICK_STEPS", 100)
     output = tiny.with_name("speed.json")

@@ -22,7 +22,8 @@ from validation.mapping.rays import rays
 from validation.reference.alignment import align
 from validation.runs import cached as cached_runs
 from validation.runs.cache import Cache, Entry, open_cache
-from validation.runs.cached import canonical, reference_key, rom_key
+from validation.runs.cached import reference_key, rom_key
+from validation.runs.keys import canonical
 
 GENEROUS = ("radius", "rms_error", "50 %")
 SHORT = Tube(sectors=8, rings=2, stacks=6, layers=1)
@@ -244,8 +245,8 @@ class TestUse:
         second, about = run()
         assert second == first
         assert self.used(about) == [False, False]
-        assert sum("was damaged" in note and "computed anew" in note for note in about["notes"]) == 2
-        assert capsys.readouterr().err.count("was damaged") == 2
+        assert sum("was damaged" in note and "computed anew" in note for note in about["notes"]) == 3
+        assert capsys.readouterr().err.count("was damaged") == 3
         assert self.used(run()[1]) == [True, True]
 
     def test_a_cache_that_cannot_be_written_to_costs_only_time(self, run, monkeypatch, capsys):
@@ -254,5 +255,5 @@ class TestUse:
 
         monkeypatch.setattr(Cache, "put", full)
         _, about = run()
-        assert sum("no space left" in note for note in about["notes"]) == 2
+        assert sum("no space left" in note for note in about["notes"]) == 3
         assert Path(about["case"]["path"]).name == "small.yaml"

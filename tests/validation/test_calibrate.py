@@ -16,9 +16,9 @@ from cases.reading.numeric_keys import numeric_keys
 from cases.reading.template import case_with
 from solver.runs.batch import run_batch
 from validation.calibrate import command as calibrate
-from validation.calibrate.command import calibrated
+from validation.calibrate.calibration import calibrated
 from validation.calibrate.fit import fit
-from validation.calibrate.fitted_case import snippet
+from validation.calibrate.fitted_case import check_case, snippet, write_case
 from validation.calibrate.targets import observed
 from validation.errors import ValidationError
 from validation.runs.variants import watching
@@ -230,7 +230,7 @@ def test_a_value_of_a_variant_stays_in_it_and_a_list_whole(calibration_of, tmp_p
     calibration = load_calibration(calibration_of(bounds, PRESSURES[:1], "axisymmetric"))
     assert YAML().load(snippet(calibration, np.array([0.008])))["calcification"]["x"] == ["5 mm", "0.008 m"]
     target = tmp_path / "fitted.yaml"
-    calibrate.write_case(target, calibration, np.array([0.008]))
+    write_case(target, calibration, np.array([0.008]))
     content = YAML().load(target.read_text())
     assert content["calcification"] == {"pattern": "none"}
     assert content["variants"]["axisymmetric"]["calcification"]["x"] == ["5 mm", "0.008 m"]
@@ -326,8 +326,8 @@ def test_a_case_that_a_calibration_wrote_may_be_replaced(calibration_of, tmp_pat
     calibration = load_calibration(calibration_of(OUTLET, PRESSURES))
     target = tmp_path / "fitted.yaml"
     for offset in (9000.0, 9500.0):
-        calibrate.check_case(target, calibration)
-        calibrate.write_case(target, calibration, np.array([1e9, offset]))
+        check_case(target, calibration)
+        write_case(target, calibration, np.array([1e9, offset]))
     assert numeric_keys(load_case_file(target).variants["none"])["outlet.offset"].value == 9500.0
 
 

@@ -3,6 +3,7 @@
 import json
 import shlex
 import threading
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -155,6 +156,20 @@ class TestWrongInput:
         assert about["variants"]["none"]["reference"]["states_compared"] == 20
         table = pd.read_csv(tmp_path / "result/metrics.csv")
         assert table.loc[table["quantity"] == "phase_lag", "rom"].isna().all()
+
+    def test_what_is_seldom_meant_is_warned_of(self, tmp_path, quick, capsys):
+        case = small_case("none")
+        header, *rows = Path(case["inlet"]["waveform"]).read_text(encoding="utf-8").splitlines()
+        pairs = [row.split(",") for row in rows]
+        slow = [f"{4.1 * float(time)!r},{value}" for time, value in pairs]
+        (tmp_path / "slow.csv").write_text("\n".join([header, *slow, ""]), encoding="utf-8")
+        case["inlet"]["waveform"] = "slow.csv"
+        path = written(case, tmp_path)
+        assert compare.main([str(path), "--output", str(tmp_path / "result")]) == 0
+        about = json.loads((tmp_path / "result/provenance.json").read_text(encoding="utf-8"))
+        said = "none: inlet: the cycle of slow.csv takes 3.26905 s, a heart's 0.2 to 3 s"
+        assert [warning.startswith(said) for warning in about["warnings"]].count(True) == 1
+        assert f"warning: {said}" in capsys.readouterr().err
 
     def test_instants_that_the_states_do_not_reach_are_not_tabulated(self, tmp_path, quick):
         path = written(self.plot(self.cut(tmp_path, 0.6)), tmp_path)

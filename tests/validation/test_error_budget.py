@@ -59,7 +59,7 @@ def test_a_reference_scaled_in_one_quantity_is_an_error_of_the_model_there_alone
     run = ReducedModelRun(exact, exact["radius"], 0.0, {})
     mesh = {name: Estimate(5e-4, None, 2.0, 3.0) for name in ("radius", "pressure")}
     models = Models("made", "up", exact * 1.01, reference, 0.8)
-    found = budgets_of(models, Sources(run, {}, mesh, ()), {"pressure": 2e-3})
+    found = budgets_of(models, Sources(run, {}, mesh, ()), {"pressure": 2e-3}, shared=False)
     radius, pressure = found["radius"], found["pressure"]
     assert radius.matched == pytest.approx(0.03, abs=1e-3)
     assert (radius.model_low, radius.model_high) == pytest.approx((0.03, 0.03), abs=1.5e-3)
@@ -162,3 +162,17 @@ def test_only_a_comparison_knows_the_inflow_of_the_reference(tmp_path, made, cap
     path = written(content, tmp_path)
     assert solver.main([str(path), "--output", str(tmp_path / "run.nc")]) == 2
     assert "inlet.kind: reference" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_uncertain_inputs_enter_the_budget(tmp_path, quick, made, shared):
+    content = made()
+    stated = {"outlet.resistance": {"relative": "5 %", "reason": "made up"}}
+    content["uncertainty"] = {"samples": 8, "inputs": stated, "shared_with_reference": shared}
+    assert compare.main([str(written(content, tmp_path)), "--output", str(tmp_path / "result")]) == 0
+    found = budget_of(tmp_path / "result")
+    part = "shared_inputs" if shared else "inputs"
+    share = float(found["pressure", part])
+    assert 0.005 < share < 0.05  # the resistance carries a part of the pressure
+    assert (float(found["pressure", "uncertainty"]) >= share) == (not shared)
+    assert float(found["section_flow_rate", part]) < share  # the inflow is prescribed

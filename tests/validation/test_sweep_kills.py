@@ -1,5 +1,6 @@
 """Sweeps on real processes: a worker or the client is killed, the user interrupts, a scheduler is given."""
 
+import logging
 import os
 import signal
 import subprocess
@@ -109,7 +110,7 @@ def test_a_client_that_is_killed_goes_on_where_it_was(study, expected):
     assert all(part.stat().st_mtime_ns == time for part, time in kept.items())
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.long)])
 def test_an_interrupt_keeps_what_is_done_and_leaves_no_process(study, expected, number):
     process = started(study)
     wait_for(lambda: len(parts(study)) >= 2, process)
@@ -160,6 +161,9 @@ def test_a_sample_that_kills_its_worker_is_the_only_one_lost(run, scheduler, wor
     monkeypatch.setitem(SETTINGS, "distributed.scheduler.allowed-failures", 0)
     with connected(scheduler, 1, print) as client:
         found = dict(computed(client, chunks(), Plan((), (), {}), run))
+        levels = client.run(lambda: logging.getLogger("tornado.application").getEffectiveLevel())
     states = [(one["sample"], one["status"]) for number in (0, 1) for one in found[number]]
     assert states == [(0, "ok"), (1, "ok"), (2, "failed"), (3, "ok")]
     assert words in found[1][0]["error"]
+    silenced = set(levels.values()) == {logging.CRITICAL}  # also in a worker that took another's place
+    assert silenced == (scheduler == "processes")

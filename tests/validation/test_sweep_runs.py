@@ -2,13 +2,16 @@
 
 import errno
 import json
+import os
 import shutil
+import subprocess
+import sys
 
 import numpy as np
 import pandas as pd
 import pytest
 from pandas.testing import assert_frame_equal
-from small_case import small_case, written
+from small_case import ROOT, small_case, written
 from small_sweep import GRID, records, small_study, study_file, swept
 
 from cases.reading.case_file import load_case_file
@@ -20,9 +23,10 @@ from validation.ablation.ladder import coupled_model
 from validation.compare import command as compare
 from validation.errors import ValidationError
 from validation.metrics.statistics import rms
-from validation.sweep import run
+from validation.sweep import page, run
 from validation.sweep.command import main
-from validation.sweep.folder import claimed
+from validation.sweep.folder import PAGE_FILES, claimed
+from validation.sweep.page import up_to_date_page
 
 MODULUS = "calcification.youngs_modulus"
 ONE = {MODULUS: ["10 MPa"]}
@@ -37,6 +41,10 @@ def whole(tmp_path_factory):
 
 def account(folder):
     return json.loads((folder / "study.json").read_text(encoding="utf-8"))
+
+
+def write_account(folder, content):
+    (folder / "study.json").write_text(json.dumps(content), encoding="utf-8")
 
 
 def test_every_sample_is_recorded_once_and_failures_say_why(whole):
@@ -190,8 +198,80 @@ def test_what_is_no_part_is_refused(whole, tmp_path, name):
 
 def test_a_finished_sweep_computes_nothing(whole, monkeypatch):
     study, expected, folder = whole
-    monkeypatch.setattr(run, "connected", None)  # whoever calls it fails
+    monkeypatch.setattr("validation.sweep.missing.connected", None)  # whoever calls it fails
     assert_frame_equal(swept(study, folder), expected)
+
+
+NOT_NEEDED = (
+    *("SALib", "distributed", "jinja2", "matplotlib", "numba", "pandas", "pint", "plotly", "pyvista"),
+    *("rich", "scipy", "typst", "xarray"),
+)
+LOADED = """
+import sys
+from validation.sweep.command import main
+main(sys.argv[1:])
+print(*sorted(set(sys.modules) & {names}))
+"""
+
+
+def test_a_sweep_with_nothing_to_do_leaves_all_as_it_is_and_loads_little(whole, tmp_path, capsys):
+    shutil.copytree(whole[2], tmp_path / "out")
+    command = [str(study_file(tmp_path)), "--output", str(tmp_path / "out")]
+    assert main(command) == 0
+    said = capsys.readouterr().out
+    before = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in files(tmp_path / "out")}
+    assert [path.name for path in before if path.suffix in (".html", ".pdf")] == list(PAGE_FILES)
+    again = subprocess.run(  # noqa: S603
+        [sys.executable, "-c", LOADED.format(names=set(NOT_NEEDED)), *command],
+        env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert (again.stdout, again.stderr) == (f"{said}\n", "")
+    assert before == {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in files(tmp_path / "out")}
+
+
+def files(folder):
+    return sorted(path for path in folder.rglob("*") if path.is_file())
+
+
+def edit(path):
+    path.write_bytes(path.read_bytes().replace(b"a", b"b", 1))
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        lambda folder, _: (folder / "index.html").unlink(),
+        lambda folder, _: (folder / "index.pdf").write_bytes(b""),
+        lambda folder, _: edit(folder / "index.html"),
+        lambda folder, _: edit(folder / "study.yaml"),
+        lambda folder, _: edit(folder / "samples/part-000000.parquet"),
+        lambda folder, _: (folder / "samples/part-000000.parquet").unlink(),
+        lambda folder, _: write_account(folder, account(folder) | {"title": "Another title"}),
+        lambda folder, _: write_account(folder, account(folder) | {"page": None}),
+        lambda _, patch: patch.setattr(page, "LIBRARIES", ("numpy",)),
+        lambda _, patch: patch.setattr(page, "DRAWN_BY", ("cases",)),
+    ],
+)
+def test_a_page_is_drawn_again_only_where_it_is_not_that_of_these_samples(
+    whole, tmp_path, monkeypatch, changed
+):
+    drawn = []
+
+    def draw(folder):
+        drawn.append(folder)
+        for name in PAGE_FILES:
+            (folder / name).write_text("a page", encoding="utf-8")
+
+    folder = tmp_path / "out"
+    shutil.copytree(whole[2], folder)
+    monkeypatch.setattr("reports.sweep.write_sweep_page", draw)
+    for _ in range(2):
+        assert up_to_date_page(folder) == folder / "index.html"
+    assert len(drawn) == 1
+    changed(folder, monkeypatch)
+    for _ in range(2):
+        up_to_date_page(folder)
+    assert len(drawn) == 2
 
 
 def test_another_study_is_refused_unless_fresh(whole, tmp_path, capsys):
@@ -234,7 +314,7 @@ def test_a_3d_run_that_cannot_be_read_does_not_remove_the_earlier_sweep(whole, t
 def test_words_do_not_make_another_study(whole, tmp_path, monkeypatch):
     _, expected, folder = whole
     shutil.copytree(folder, tmp_path / "out")
-    monkeypatch.setattr(run, "connected", None)
+    monkeypatch.setattr("validation.sweep.missing.connected", None)
     study = small_study(tmp_path, title="Another title")
     assert_frame_equal(swept(study, tmp_path / "out"), expected)
     assert account(tmp_path / "out")["title"] == "Another title"

@@ -7,7 +7,7 @@ import pytest
 
 from solver.errors import WallCollapse
 from validation.tables import command as tables
-from validation.tables import presentation, store
+from validation.tables import experiments, presentation, pulse, stability, store
 from validation.tables.experiment import Check, Entry, Experiment, number, numbers, within
 
 
@@ -32,22 +32,24 @@ def counted(monkeypatch):
             if name in results
         ]
 
-    experiments = {
+    few = {
         "a": Experiment("a", "both", [quick, slow], rows),
         "b": Experiment("b", "slow", [slow], rows),
     }
-    monkeypatch.setattr(tables, "EXPERIMENTS", experiments)
+    monkeypatch.setattr(experiments, "EXPERIMENTS", few)
+    monkeypatch.setattr(tables, "NAMES", tuple(few))
     return calls
 
 
 def test_all_tables_are_offered():
     thesis = {"3.1", "3.2", "3.3", "3.4", "3.6", "3.7", "3.9", "stability", "orders", "steady", "pulse"}
-    assert set(tables.EXPERIMENTS) == thesis | {"schemes"}
+    assert set(experiments.EXPERIMENTS) == thesis | {"schemes"}
+    assert tuple(experiments.EXPERIMENTS) == tables.NAMES
 
 
 def test_entry_names_are_unique_files():
     computed = {}
-    for experiment in tables.EXPERIMENTS.values():
+    for experiment in experiments.EXPERIMENTS.values():
         for entry in experiment.entries:
             computed.setdefault(entry.name, set()).add(str(entry.compute))
     assert all(len(ways) == 1 for ways in computed.values())
@@ -95,13 +97,13 @@ def test_quick_leaves_the_slow_ones(counted, tmp_path, capsys):
 
 
 def test_interrupted_run_continues(counted, tmp_path, monkeypatch):
-    experiment = tables.EXPERIMENTS["a"]
+    experiment = experiments.EXPERIMENTS["a"]
     stopped = Entry("slow one", _interrupt, quick=False)
     entries = [experiment.entries[0], stopped]
     interrupted = Experiment("a", "both", entries, experiment.rows)
-    monkeypatch.setitem(tables.EXPERIMENTS, "a", interrupted)
+    monkeypatch.setitem(experiments.EXPERIMENTS, "a", interrupted)
     assert tables.main(["a", "--output", str(tmp_path)]) == 130
-    monkeypatch.setitem(tables.EXPERIMENTS, "a", experiment)
+    monkeypatch.setitem(experiments.EXPERIMENTS, "a", experiment)
     assert tables.main(["a", "--output", str(tmp_path)]) == 0
     assert counted == {"slow one": 1, "quick one": 1}
 
@@ -112,7 +114,8 @@ def _interrupt():
 
 def test_missed_tolerance_exits_1(monkeypatch, tmp_path, capsys):
     row = within("far", "value", "", 1.02, 1.0, 0.01)
-    monkeypatch.setattr(tables, "EXPERIMENTS", {"c": Experiment("c", "missed", [], lambda _: [row])})
+    monkeypatch.setattr(experiments, "EXPERIMENTS", {"c": Experiment("c", "missed", [], lambda _: [row])})
+    monkeypatch.setattr(tables, "NAMES", ("c",))
     assert tables.main(["--output", str(tmp_path)]) == 1
     assert "missed" in capsys.readouterr().out
     with (tmp_path / "c.csv").open(encoding="utf-8") as file:
@@ -126,7 +129,8 @@ def test_failed_run_exits_1_and_names_itself(monkeypatch, tmp_path, capsys):
         raise WallCollapse(1.0, 2, 3)
 
     experiment = Experiment("c", "failing", [Entry("collapse", fail, quick=True)], lambda _: [])
-    monkeypatch.setattr(tables, "EXPERIMENTS", {"c": experiment})
+    monkeypatch.setattr(experiments, "EXPERIMENTS", {"c": experiment})
+    monkeypatch.setattr(tables, "NAMES", ("c",))
     assert tables.main(["--output", str(tmp_path)]) == 1
     assert "collapse: the lumen collapsed" in capsys.readouterr().err.replace("\n", " ")
 
@@ -141,20 +145,20 @@ def test_json_names_sources_and_rows(counted, tmp_path):
 
 def test_figures_of_the_block_pulse(tmp_path):
     result = {"radius_mm 3.1": [2.5, 2.6], "radius_mm 3.2": [2.5, 2.6]}
-    paths = tables.pulse.EXPERIMENT.draw({"block pulse upwind n_x=60": result}, tmp_path)
+    paths = pulse.EXPERIMENT.draw({"block pulse upwind n_x=60": result}, tmp_path)
     assert [path.name for path in paths] == ["figure_3_1.png", "figure_3_2.png"]
     assert all(path.stat().st_size > 1000 for path in paths)
 
 
 def test_figures_of_the_stability_scan(tmp_path):
     result = {"time_step_us": [23.0, 23.1], "courant": [0.99, None]}
-    paths = tables.stability.EXPERIMENT.draw({"stability none 23 us": result}, tmp_path)
+    paths = stability.EXPERIMENT.draw({"stability none 23 us": result}, tmp_path)
     assert [path.name for path in paths] == ["figure_3_3.png", "figure_3_16.png"]
 
 
 def test_stability_limit_is_the_last_stable_step():
     result = {"time_step_us": [23.0, 23.1, 23.2, 23.3, 23.4], "courant": [0.98, 1.01, 0.99, 1.03, None]}
-    (row,) = tables.stability.EXPERIMENT.rows({"stability none 23 us": result})
+    (row,) = stability.EXPERIMENT.rows({"stability none 23 us": result})
     assert row.ours == 23.2
     assert row.met
 

@@ -20,7 +20,6 @@ from validation.compare.account import described
 from validation.compare.budget.inputs import input_uncertainty
 from validation.compare.budget.judged import judged_quantities
 from validation.compare.budget.parts import VARIABLE, budget_array, budget_rows, budgets_of
-from validation.compare.budget.sources import Sources
 from validation.compare.comparison import (
     VariantRun,
     at_common_instants,
@@ -95,13 +94,14 @@ def uncertain_inputs(file: CaseFile, name: str, run: VariantRun, watch: Watch) -
 
 
 def source_rows(
-    models: Models, sources: Sources | None, inputs: Mapping[str, float] | None, both: xr.Dataset
+    models: Models, run: VariantRun, inputs: Mapping[str, float] | None, both: xr.Dataset
 ) -> list[MetricRow]:
     """Rows of what errors owe to what; the budget is added to the dataset of ``both`` models."""
+    sources, stated = run.sources, run.case.uncertainty
     if sources is None:
         both[VARIABLE] = budget_array({})
         return []
-    budgets = budgets_of(models, sources, inputs)
+    budgets = budgets_of(models, sources, inputs, stated is None or stated.shared_with_reference)
     both[VARIABLE] = budget_array(budgets)
     matched = [] if sources.matched is None else matched_rows(models, sources.matched)
     return [*matched, *budget_rows(models, budgets)]
@@ -178,7 +178,7 @@ def _compared(
             with watch.step("metrics"):
                 told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
                 models = models_of(file.name, name, both, about["period_s"], **told)
-                owed = source_rows(models, run.sources, inputs, both)
+                owed = source_rows(models, run, inputs, both)
                 rows[name] = [*variant_rows(models, run, about), *owed]
                 compared[name] = without_rays(models)
                 both[PROFILE_ERROR_CURVE] = error_curves(models, about)

@@ -3,15 +3,18 @@
 `cases.fields` says of each what it is called, which fields it reads, and what is made of it.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
-from scipy.interpolate import CubicSpline
-from scipy.optimize import minimize_scalar
 
 from cases.arrays import Floats
 from validation.reference.alignment import WHOLE
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def _pulse(model: xr.Dataset) -> float:
@@ -73,6 +76,9 @@ def phase_lag(rom: xr.Dataset, reference: xr.Dataset, period: float) -> float | 
     The shift of the reference's periodic spline that, scaled, fits the reduced model best; None where the
     states do not cover a cycle.
     """
+    from scipy.interpolate import CubicSpline
+    from scipy.optimize import minimize_scalar
+
     times = reference["time"].to_numpy()
     if times[-1] - times[0] < WHOLE * period:
         return None

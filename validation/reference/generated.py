@@ -9,7 +9,6 @@ from cases.sections.case import Case
 from cases.sections.references.kinds import KINDS
 from cases.values.wording import choices
 from validation.errors import ValidationError
-from validation.reference.kinds import kind_of
 from validation.runs.provenance import shown_path
 
 
@@ -53,14 +52,23 @@ def check_computed(path: Path, cases: Mapping[str, Case]) -> None:
         If files of a reference are missing; the message says which commands make them, if any do.
     """
     references = {name: case.reference for name, case in cases.items() if case.reference is not None}
+    absent = {
+        name: reference
+        for name, reference in references.items()
+        if not all(path.is_file() for path in reference.files)
+    }
+    if not absent:
+        return
+    from validation.reference.kinds import kind_of
+
     lines = [
         line
-        for name, reference in references.items()
+        for name, reference in absent.items()
         for line in kind_of(name, cases[name]).how_to_make(reference, path, name)
     ]
     if lines:
         raise ValidationError("\n".join(lines))
-    for name, reference in references.items():
+    for name, reference in absent.items():
         for needed in reference.files:
             if not needed.is_file():
                 raise ValidationError(f"variant {name!r}: {shown_path(needed)}: no such file (reference)")

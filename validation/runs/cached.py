@@ -1,15 +1,9 @@
 """Both models of a variant, from the cache where nothing that determines them has changed."""
 
-import hashlib
-import json
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
-from pathlib import Path
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeVar
-
-import numpy as np
-from pydantic import BaseModel
 
 from cases.sections.case import Case
 from validation.errors import ValidationError
@@ -18,9 +12,9 @@ from validation.reference.alignment import Alignment
 from validation.reference.direction import inflow_sign
 from validation.reference.kind import Progress, Reference, ReferenceKind
 from validation.runs.cache import Cache, Entry
-from validation.runs.provenance import checksum, shown_path
+from validation.runs.keys import key_of
+from validation.runs.provenance import shown_path
 from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
-from validation.runs.sources import Kind, code_digest
 
 
 class _Described(Protocol):
@@ -40,39 +34,6 @@ class Numbers:
 
     values: dict[str, Any]
     description: dict[str, Any] = field(default_factory=dict)
-
-
-def canonical(value: Any) -> Any:
-    """Return a value as JSON tells it apart: files by their content, floats with all their digits.
-
-    Raises
-    ------
-    TypeError
-        For a type that has no such form.
-    """
-    if value is None or isinstance(value, str | bool | int):
-        return value
-    if isinstance(value, float | np.floating):
-        return float(value).hex()
-    if isinstance(value, Path):
-        return checksum(value)
-    if isinstance(value, np.ndarray):
-        return {"dtype": str(value.dtype), "values": canonical(value.ravel().tolist())}
-    if isinstance(value, BaseModel):
-        return {name: canonical(getattr(value, name)) for name in type(value).model_fields}
-    if is_dataclass(value):
-        return {part.name: canonical(getattr(value, part.name)) for part in fields(value)}
-    if isinstance(value, Mapping):
-        return {str(name): canonical(each) for name, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [canonical(each) for each in value]
-    raise TypeError(f"{type(value).__name__} has no canonical form")
-
-
-def key_of(kind: Kind, parts: Mapping[str, Any]) -> str:
-    """Digest of what determines a result: code, libraries, parts of the case, contents of files."""
-    stated = {"kind": kind, "code": code_digest(kind), "parts": canonical(parts)}
-    return hashlib.sha256(json.dumps(stated, sort_keys=True).encode()).hexdigest()
 
 
 def rom_key(case: Case, alignment: Alignment, rays: Rays) -> str:

@@ -1,5 +1,7 @@
 """A result directory, written whole or not at all."""
 
+from __future__ import annotations
+
 import fnmatch
 import json
 import math
@@ -7,12 +9,13 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
-
-import pandas as pd
+from typing import TYPE_CHECKING, Any
 
 from cases.shell.whole import write_text, write_whole_folder, writing
 from validation.errors import ValidationError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 MARK = "provenance.json"  # every finished result has one
 PARAVIEW_FILES = ("rom_*.vtkhdf", "reference_*.vtkhdf")
@@ -88,17 +91,16 @@ def write_json(path: Path, content: Any) -> None:
     write_text(path, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
 
 
-def _plain(value: Any) -> Any:
-    if value is None or value is pd.NA:
-        return None
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
-
-
 def write_metrics(directory: Path, table: pd.DataFrame) -> None:
     """Write metrics.csv and metrics.json, a line a row, 17 digits."""
+    import pandas as pd
+
+    def plain(value: Any) -> Any:
+        if value is None or value is pd.NA:
+            return None
+        return None if isinstance(value, float) and not math.isfinite(value) else value
+
     table.to_csv(directory / "metrics.csv", index=False)
-    records = [{k: _plain(v) for k, v in row.items()} for row in table.astype(object).to_dict("records")]
+    records = [{k: plain(v) for k, v in row.items()} for row in table.astype(object).to_dict("records")]
     lines = [json.dumps(record, ensure_ascii=False, allow_nan=False) for record in records]
     write_text(directory / "metrics.json", "[\n" + ",\n".join(lines) + "\n]\n")

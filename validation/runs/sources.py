@@ -38,6 +38,7 @@ CELLS = (
     "validation/reference/kind.py",
     "validation/runs/cache.py",
     "validation/runs/cached.py",
+    "validation/runs/keys.py",
 )
 REDUCED_MODEL = (
     *CASE,

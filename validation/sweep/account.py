@@ -1,13 +1,14 @@
 """study.json: what a sweep is, how far it is, and what its indices say."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from cases.results.sweep import DrawnDesign, SampleCounts, SobolIndex, State, SweepAccount
 from cases.shell.whole import write_text, writing
 from validation.errors import ValidationError
-from validation.runs.cached import key_of
+from validation.runs.keys import key_of
 from validation.runs.output import write_json
 from validation.runs.provenance import git_commit, installed, shown_path
 from validation.sweep import outputs, parameters
@@ -15,6 +16,7 @@ from validation.sweep.folder import ACCOUNT, STUDY, Counts
 from validation.sweep.judging import STATES
 from validation.sweep.study import Study
 
+OF_ONE_RUN = ("created", "git_commit", "state", "counts", "sensitivity", "page")
 LIBRARIES = ("dask", "distributed", "numba", "numpy", "pyarrow", "SALib", "scipy", "xarray")
 
 
@@ -56,6 +58,15 @@ def account_of(study: Study, digest: str, total: int, chunk: int) -> SweepAccoun
         state="running",
         counts=SampleCounts(done=0, failed=0, total=total),
     )
+
+
+def tells_the_same(earlier: Mapping[str, Any], account: SweepAccount) -> bool:
+    """Whether an earlier study.json is of the same sweep in the same words, but for what each run adds."""
+
+    def of_the_sweep(content: Mapping[str, Any]) -> dict[str, Any]:
+        return {key: value for key, value in content.items() if key not in OF_ONE_RUN}
+
+    return of_the_sweep(earlier) == of_the_sweep(account.written())
 
 
 def write_account(

@@ -7,17 +7,17 @@ from typing import Any
 
 import xarray as xr
 
+from cases.results.sweep import FAILED, OK
 from cases.sections.case import Case
 from solver.model.parameters import Model
 from solver.runs.batch import run_batch
 from solver.runs.result import CellHistory, cell_dataset
 from validation.ablation.ladder import coupled_model
 from validation.runs.reduced_model import change_of, run_times
-from validation.sweep.judging import Standard, instants_of, judged_values
 from validation.sweep.outputs import CYCLE_CHANGE, OWN, Output
 from validation.sweep.samples import Sample
+from validation.sweep.standards import Standard, instants_of, judged_values
 
-OK, FAILED = "ok", "failed"
 THREADS = 1  # of one task: a cluster runs as many tasks at once as it has processors
 Record = dict[str, Any]
 

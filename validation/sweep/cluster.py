@@ -16,8 +16,13 @@ CONNECT_WITHIN = "10s"
 CLOSE_WITHIN = 5.0  # s
 LIBRARIES_WITH_THREADS = ("OMP", "OPENBLAS", "MKL", "NUMBA")
 ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES_WITH_THREADS}
-# a terminal sends Ctrl-C to workers too, which are to be ended by their cluster
-LEAVE_CTRL_C = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)"
+# for each worker process: a terminal sends Ctrl-C to it too, but its cluster is to end it, and what tornado
+# says of a heartbeat that this cuts short is no user's matter
+IN_WORKERS = """
+import logging, signal
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+logging.getLogger("tornado.application").setLevel(logging.CRITICAL)
+"""
 SETTINGS = {
     "distributed.nanny.pre-spawn-environ": {**ONE_THREAD, "MALLOC_TRIM_THRESHOLD_": "65536"},
     "distributed.scheduler.allowed-failures": 3,  # workers that may die with one task
@@ -65,7 +70,7 @@ def _local(kind: str, workers: int) -> Iterator[LocalCluster]:
         processes=kind == PROCESSES,
         dashboard_address=None,
         silence_logs=logging.CRITICAL,
-        preload=[LEAVE_CTRL_C] if kind == PROCESSES else [],
+        preload=[IN_WORKERS] if kind == PROCESSES else [],
         **(own if kind == PROCESSES else shared),
     )
     try:

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from cases.shell.command import COMPLETE, concluded
 from cases.shell.interrupts import interrupts_deferred
-from cases.shell.whole import writing
 from validation.errors import ValidationError
 
 NEEDED = ("distributed", "locket", "pyarrow", "SALib")
@@ -71,18 +70,15 @@ def _run(chosen: argparse.Namespace) -> int:
     _check_libraries()
     _check_scheduler(chosen.scheduler)
     with interrupts_deferred():
-        from reports.sweep import write_sweep_page
-        from solver.runs.batch import available_threads
-        from validation.sweep.folder import PAGE_FILES
+        from validation.sweep.page import up_to_date_page
         from validation.sweep.run import Where, run_sweep
         from validation.sweep.study import load_study
 
     study = load_study(chosen.study)
     folder = chosen.output = chosen.output or Path("results") / study.name
-    where = Where(folder, chosen.scheduler, chosen.workers or available_threads(), chosen.fresh)
+    where = Where(folder, chosen.scheduler, chosen.workers, chosen.fresh)
     counts = run_sweep(study, where, lambda words: print(words, file=sys.stderr))
-    with writing(folder / PAGE_FILES[0], ValidationError):
-        page, _ = write_sweep_page(folder)
+    page = up_to_date_page(folder)
     words = f", {counts.failed} of them failed" if counts.failed else ""
     print(f"{study.name}: {counts.done} samples{words}; page: {page}")
     return COMPLETE

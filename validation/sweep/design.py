@@ -6,7 +6,6 @@ from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import model_validator
-from scipy.stats import qmc
 
 from cases.arrays import Floats
 from cases.sections.base import Section
@@ -112,15 +111,19 @@ def points(design: Design, parameters: Sequence[Parameter]) -> Floats:
 
 
 def _latin_hypercube(design: Design, dimensions: int) -> Floats:
+    from scipy.stats import qmc
+
     return np.asarray(qmc.LatinHypercube(dimensions, rng=design.seed).random(design.count or 0))
 
 
 def _sobol(design: Design, dimensions: int) -> Floats:
+    from scipy.stats import qmc
+
     return np.asarray(qmc.Sobol(dimensions, rng=design.seed).random(design.count or 0))
 
 
 def _saltelli(design: Design, dimensions: int) -> Floats:
-    from SALib.sample import sobol  # slow to import
+    from SALib.sample import sobol
 
     return np.asarray(
         sobol.sample(

@@ -1,7 +1,7 @@
 """The folder of a sweep: parts of a Parquet dataset, each written whole, and one writer at a time."""
 
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,9 +11,9 @@ import locket
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from cases.results.sweep import FAILED
 from cases.shell.whole import write_whole, writing
 from validation.errors import ValidationError
-from validation.sweep.chunk import FAILED, Record
 
 STUDY, ACCOUNT, SAMPLES, LOCK = "study.yaml", "study.json", "samples", ".lock"
 PAGE_FILES = ("index.html", "index.pdf")
@@ -113,7 +113,7 @@ def part_path(folder: Path, number: int) -> Path:
     return folder / SAMPLES / f"part-{number:06d}.parquet"
 
 
-def write_part(path: Path, records: Sequence[Record], schema: pa.Schema) -> Counts:
+def write_part(path: Path, records: Sequence[Mapping[str, object]], schema: pa.Schema) -> Counts:
     """Write the records of one chunk, whole or not at all.
 
     Raises
@@ -171,7 +171,8 @@ def parts_present(folder: Path, chunks: Sequence[range], schema: pa.Schema) -> d
 def _counts_of(path: Path, numbers: range, schema: pa.Schema) -> Counts | None:
     """Count the records of a part; None where it is damaged or holds other samples or columns."""
     try:
-        table = pq.read_table(path, page_checksum_verification=True)
+        with pq.ParquetFile(path, page_checksum_verification=True) as part:  # read_table would load pandas
+            table = part.read()
     except (pa.ArrowException, OSError):
         return None
     if not table.schema.equals(schema) or table["sample"].to_pylist() != list(numbers):

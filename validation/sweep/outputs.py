@@ -1,11 +1,13 @@
 """What is kept of each sample: numbers of its last cycle, and how far it is from what judges it."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
@@ -17,7 +19,10 @@ from cases.statistics import statistic_of
 from validation.metrics.quantities import CYCLE_QUANTITIES
 from validation.sweep.judging import Against, judged_bands
 
-Measure = Callable[[Case, xr.Dataset], float]
+if TYPE_CHECKING:
+    import xarray as xr
+
+Measure = Callable[[Case, "xr.Dataset"], float]
 
 CYCLE_CHANGE = "cycle_change"  # output, and attribute of a last cycle that tells it
 

@@ -1,13 +1,12 @@
 """What a study says of one parameter: values to take, or how they are distributed."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from scipy import stats
 
 from cases.arrays import Floats
 from cases.reading.numeric_keys import NumericKey
@@ -73,28 +72,23 @@ class Parameter:
         if self.values is not None:
             places = np.minimum((share * self.values.size).astype(int), self.values.size - 1)
             return np.asarray(self.values[places])
-        return np.asarray(np.clip(DISTRIBUTIONS[self.kind](self.numbers).ppf(share), *self.limits))
+        return np.asarray(np.clip(_distribution(self.kind, self.numbers).ppf(share), *self.limits))
 
 
-def _triangular(n: Mapping[str, float]) -> Any:
+def _distribution(kind: str, n: Mapping[str, float]) -> Any:
+    """Return scipy's distribution of a kind with these numbers, SI."""
+    from scipy import stats
+
+    if kind == "normal":
+        mean, spread = n["mean"], n[SPREAD]
+        low, high = ((n.get(name, end) - mean) / spread for name, end in (("low", -np.inf), ("high", np.inf)))
+        return stats.truncnorm(low, high, mean, spread)
+    if kind == "loguniform":
+        return stats.loguniform(n["low"], n["high"])
     width = n["high"] - n["low"]
-    return stats.triang((n["mode"] - n["low"]) / width, n["low"], width)
-
-
-def _normal(n: Mapping[str, float]) -> Any:
-    mean, spread = n["mean"], n[SPREAD]
-    low, high = ((n.get(name, end) - mean) / spread for name, end in (("low", -np.inf), ("high", np.inf)))
-    return stats.truncnorm(low, high, mean, spread)
-
-
-DISTRIBUTIONS: Mapping[str, Callable[[Mapping[str, float]], Any]] = MappingProxyType(
-    {
-        "uniform": lambda n: stats.uniform(n["low"], n["high"] - n["low"]),
-        "loguniform": lambda n: stats.loguniform(n["low"], n["high"]),
-        "triangular": _triangular,
-        "normal": _normal,
-    }
-)
+    if kind == "triangular":
+        return stats.triang((n["mode"] - n["low"]) / width, n["low"], width)
+    return stats.uniform(n["low"], width)
 
 
 def described(parameter: Parameter) -> VariedParameter:

@@ -1,39 +1,24 @@
 """One sweep from a study to its folder: what is recorded already stays, what is missing is run."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pyarrow as pa
-from rich.progress import BarColumn, MofNCompleteColumn, TimeRemainingColumn
 
 from cases.results.sweep import SweepAccount
-from cases.shell.terminal import progress
+from cases.shell.interrupts import interrupts_deferred
 from validation.errors import ValidationError
 from validation.reference.generated import check_computed
-from validation.runs.cache import open_cache
-from validation.sweep.account import account_of, digest_of, write_account, write_study
-from validation.sweep.chunk import Plan
-from validation.sweep.cluster import connected
-from validation.sweep.folder import (
-    Counts,
-    begun,
-    claimed,
-    cleared,
-    part_path,
-    parts_present,
-    schema_of,
-    write_part,
-)
-from validation.sweep.judging import Standard, Watcher, standards
-from validation.sweep.samples import Samples, samples_of_study
+from validation.sweep.account import account_of, digest_of, tells_the_same, write_account, write_study
+from validation.sweep.design import samples_of
+from validation.sweep.folder import STUDY, Counts, begun, claimed, cleared, parts_present, schema_of
+from validation.sweep.samples import samples_of_study
 from validation.sweep.sensitivity import sensitivity
-from validation.sweep.stream import computed
 from validation.sweep.study import Study
 
 SMALLEST_CHUNK, LARGEST_CHUNK, PARTS = 8, 64, 500  # samples of a part; parts to aim at
-ACCOUNT_EVERY = 1.0  # s
 
 Tell = Callable[[str], None]
 
@@ -48,15 +33,15 @@ class Where:
         Its result.
     scheduler : str
         ``processes``, ``threads`` or the address of a scheduler.
-    workers : int
-        Processes or threads of a local cluster.
+    workers : int or None
+        Processes or threads of a local cluster; None: as many as processors.
     fresh : bool
         Whether what an earlier run left is removed first.
     """
 
     folder: Path
     scheduler: str
-    workers: int
+    workers: int | None
     fresh: bool = False
 
 
@@ -66,7 +51,7 @@ def chunk_size(study: Study, total: int) -> int:
 
 
 def run_sweep(study: Study, where: Where, tell: Tell) -> Counts:
-    """Run the samples of a study that are not recorded yet.
+    """Run the samples of a study that are not recorded yet; a finished sweep of it is left as it is.
 
     Returns
     -------
@@ -81,32 +66,61 @@ def run_sweep(study: Study, where: Where, tell: Tell) -> Counts:
     KeyboardInterrupt
         When the user interrupts; what was recorded stays, and study.json says so.
     """
-    samples = samples_of_study(study)
-    size = chunk_size(study, len(samples))
-    chunks = [range(first, min(first + size, len(samples))) for first in range(0, len(samples), size)]
+    total = samples_of(study.design, study.parameters) * len(study.templates)
+    size = chunk_size(study, total)
+    chunks = [range(first, min(first + size, total)) for first in range(0, total, size)]
     if study.against == "reference":
         check_computed(study.base, study.cases)
-    digest = digest_of(study, chunks)
+    account = account_of(study, digest_of(study, chunks), total, size)
     schema = schema_of(
         [parameter.name for parameter in study.parameters], [output.name for output in study.outputs]
     )
+    if not where.fresh:
+        _refuse_another(where.folder, account.digest)
+        finished = _finished(study, where.folder, account, chunks, schema)
+        if finished is not None:
+            return finished
+    return _run(study, where, account, chunks, schema, tell)
+
+
+def _finished(
+    study: Study, folder: Path, account: SweepAccount, chunks: Sequence[range], schema: pa.Schema
+) -> Counts | None:
+    """Count the samples of a sweep that is finished, whole, and told in the same words; None for another."""
+    earlier = begun(folder)
+    if earlier is None or earlier.get("state") != "finished" or not tells_the_same(earlier, account):
+        return None
+    kept = folder / STUDY
+    if not kept.is_file() or kept.read_bytes() != study.text.encode():
+        return None
+    with claimed(folder):
+        present = parts_present(folder, chunks, schema)
+    return sum(present.values(), Counts()) if len(present) == len(chunks) else None
+
+
+def _run(
+    study: Study, where: Where, account: SweepAccount, chunks: Sequence[range], schema: pa.Schema, tell: Tell
+) -> Counts:
+    samples = samples_of_study(study)
+    with interrupts_deferred():
+        from validation.sweep.missing import Keeper, judges_of, run_missing
+
     with claimed(where.folder):
         judges = None
         if where.fresh:
-            judges = _standards(study, tell)  # a reference that cannot be read leaves the earlier sweep
+            judges = judges_of(study, tell)  # a reference that cannot be read leaves the earlier sweep
             cleared(where.folder)
-        _refuse_another(where.folder, digest)
+        _refuse_another(where.folder, account.digest)  # it may be another by now
         present = parts_present(where.folder, chunks, schema)
-        account = account_of(study, digest, len(samples), size)
         write_study(where.folder, study)
         counts = sum(present.values(), Counts())
         write_account(where.folder, account, "running", counts)
-        missing = [number for number in range(len(chunks)) if number not in present]
-        keep = _Keeper(where.folder, schema, account, counts, time.monotonic())
+        missing = {number: chunk for number, chunk in enumerate(chunks) if number not in present}
+        keep = Keeper(where.folder, schema, account, counts, time.monotonic())
         try:
             if missing:
-                plan = _plan(study, judges or _standards(study, tell))
-                _run_missing(samples, chunks, missing, where, keep, plan, tell)
+                judges = judges or judges_of(study, tell)
+                run_missing(samples, missing, judges, where.scheduler, where.workers, keep, tell)
         except BaseException:
             write_account(where.folder, account, "interrupted", keep.counts)
             raise
@@ -121,58 +135,3 @@ def _refuse_another(folder: Path, digest: str) -> None:
             f"{folder}: holds a sweep of another study, or of another version of this program; "
             "--fresh removes it and starts anew, --output DIR chooses another folder"
         )
-
-
-@dataclass
-class _Keeper:
-    """Records what is computed, and now and then how far the sweep is."""
-
-    folder: Path
-    schema: pa.Schema
-    account: SweepAccount
-    counts: Counts
-    written: float
-
-    def keep(self, number: int, records: Sequence[dict[str, object]]) -> None:
-        """Write one chunk.
-
-        Raises
-        ------
-        ValidationError
-            If it cannot be written.
-        """
-        self.counts += write_part(part_path(self.folder, number), records, self.schema)
-        if time.monotonic() - self.written > ACCOUNT_EVERY:
-            write_account(self.folder, self.account, "running", self.counts)
-            self.written = time.monotonic()
-
-
-def _standards(study: Study, tell: Tell) -> dict[str, Standard]:
-    bands = [band for output in study.outputs for band in output.bands]
-    watcher = Watcher(lambda _done, _total: None, tell)
-    return standards(study.cases, study.against, bands, open_cache(), watcher)
-
-
-def _plan(study: Study, judges: Mapping[str, Standard]) -> Plan:
-    return Plan(tuple(parameter.name for parameter in study.parameters), study.outputs, judges)
-
-
-def _run_missing(
-    samples: Samples,
-    chunks: Sequence[range],
-    missing: Sequence[int],
-    where: Where,
-    keeper: _Keeper,
-    plan: Plan,
-    tell: Tell,
-) -> None:
-    columns = ("{task.description}", BarColumn(), MofNCompleteColumn(), "{task.fields[failed]} failed")
-    with progress(*columns, TimeRemainingColumn()) as display:
-        task = display.add_task(
-            "samples", total=len(samples), completed=keeper.counts.done, failed=keeper.counts.failed
-        )
-        blocks = ((number, samples.block(chunks[number])) for number in missing)
-        with connected(where.scheduler, where.workers, tell) as client:
-            for number, records in computed(client, blocks, plan):
-                keeper.keep(number, records)
-                display.update(task, completed=keeper.counts.done, failed=keeper.counts.failed)

@@ -44,7 +44,7 @@ def whole_groups(values: Floats, parameters: int) -> Floats:
 
 
 def _indices(study: Study, variant: str, output: str, values: Floats) -> Iterator[SobolIndex]:
-    from SALib.analyze import sobol  # slow to import
+    from SALib.analyze import sobol
 
     count = len(study.parameters)
     groups = whole_groups(values, count)

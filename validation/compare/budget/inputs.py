@@ -21,13 +21,15 @@ from solver.runs.result import CellHistory, cell_dataset
 from validation.compare.budget.spread import RunningSpread, relative_spread
 from validation.metrics.quantities import CYCLE_QUANTITIES, DERIVED_QUANTITIES
 from validation.runs.cache import Cache, Entry
-from validation.runs.cached import Remark, cached, canonical, key_of
+from validation.runs.cached import Remark, cached
+from validation.runs.keys import canonical, key_of
 from validation.runs.reduced_model import run_times
 from validation.sweep.design import Design, points
 from validation.sweep.display import Display
 from validation.sweep.parameters import Parameter
 
 AT_ONCE = 8  # results in memory
+STEPS = 4.0  # steps of the case in one of a sample: a spread needs no more digits
 MOST_FAILED = 0.1  # share of the samples; above it there is no number
 STEP = 0.1  # of a standard deviation: half the interval of the central differences
 Values = dict[str, Floats]
@@ -71,7 +73,8 @@ def input_uncertainty(
         Of a field the root mean square over all cells and instants of the standard deviation over the mean,
         of a number of the cycle its standard deviation over its mean; nothing where there is no number.
     """
-    if case.uncertainty is None:
+    stated = case.uncertainty
+    if stated is None:
         return {}
     numbers, lacking = uncertain_numbers(case)
     if lacking:
@@ -91,7 +94,7 @@ def input_uncertainty(
     found = cached(
         store,
         lambda: key_of("input uncertainty", canonical(parts)),
-        lambda: _computed(_Runs(template, case, instants, wanted), case.uncertainty, list(numbers.values())),
+        lambda: _computed(_Runs(template, case, instants, wanted), stated, list(numbers.values())),
         lambda each: Entry({}, {"relative": each.relative, "description": each.description}),
         lambda entry: InputUncertainty(entry.facts["relative"], entry.facts["description"]),
         remark,
@@ -122,7 +125,7 @@ class _Runs:
         """
         for first in range(0, len(values), AT_ONCE):
             made = [self._case(numbers, each) for each in values[first : first + AT_ONCE].tolist()]
-            cases = [case for case in made if case is not None]
+            cases = [_coarser(case) for case in made if case is not None]
             times = run_times(self.case, self.instants)
             outcomes = iter(run_batch(cases, times, self._kept) if cases else ())
             yield from [None if case is None else next(outcomes).kept for case in made]
@@ -140,17 +143,23 @@ class _Runs:
         return {name: _quantity(name, last) for name in known}
 
 
+def _coarser(case: Case) -> Case:
+    """Return a case with a larger time step, where its scheme has no limit to that."""
+    if case.solver.scheme != "semi_implicit":
+        return case
+    solver = case.solver.model_copy(update={"time_step": STEPS * case.solver.time_step})
+    return case.model_copy(update={"solver": solver})
+
+
 def _quantity(name: str, last: xr.Dataset) -> Floats:
     measure: Callable[[xr.Dataset], Any] | None = CYCLE_QUANTITIES.get(name) or DERIVED_QUANTITIES.get(name)
     return np.asarray(last[reads(name)[0]].to_numpy() if measure is None else measure(last), dtype=float)
 
 
-def _computed(
-    runs: _Runs, stated: Uncertainty | None, numbers: Sequence[UncertainNumber]
-) -> InputUncertainty:
-    if stated is not None and stated.method == "local":
+def _computed(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> InputUncertainty:
+    if stated.method == "local":
         return _local(runs, numbers)
-    return _sampled(runs, stated or Uncertainty.model_construct(), numbers)
+    return _sampled(runs, stated, numbers)
 
 
 def _sampled(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> InputUncertainty:

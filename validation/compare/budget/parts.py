@@ -35,7 +35,9 @@ class Budget:
     matched : float or None
         |E| with the inflow of the 3D mesh.
     mesh, grid, inputs : float or None
-        Uncertainty of the 3D mesh, of the 2D grid and time step, of the inputs.
+        Uncertainty of the 3D mesh, of the 2D grid and time step, of inputs that the models do not share.
+    shared_inputs : float or None
+        Uncertainty of inputs that both models share, which is no part of their difference.
     mesh_order, mesh_safety : float or None
         Observed order on three 3D meshes or more, and the factor of safety that counted.
     grid_order, step_order : float or None
@@ -50,6 +52,7 @@ class Budget:
     mesh: float | None = None
     grid: float | None = None
     inputs: float | None = None
+    shared_inputs: float | None = None
     mesh_order: float | None = None
     mesh_safety: float | None = None
     grid_order: float | None = None
@@ -79,7 +82,10 @@ class Budget:
 
 
 def budgets_of(
-    models: Models, sources: Sources, inputs: Mapping[str, float] | None = None
+    models: Models,
+    sources: Sources,
+    inputs: Mapping[str, float] | None = None,
+    shared: bool = True,
 ) -> dict[str, Budget]:
     """Budget of each quantity whose relative error has a meaning.
 
@@ -90,8 +96,11 @@ def budgets_of(
     sources : Sources
     inputs : mapping of str to float, optional
         By quantity, root mean square of the relative standard deviation that uncertain inputs give it.
+    shared : bool, optional
+        Whether the reference was computed with the same inputs.
     """
     found = {}
+    part = "shared_inputs" if shared else "inputs"
     for quantity in judged_quantities():
         error = apart(quantity, models.rom, models.reference)
         if error is None:
@@ -102,7 +111,7 @@ def budgets_of(
             **_matched(quantity, models, sources),
             mesh=None if mesh is None else mesh.uncertainty,
             grid=None if numerical is None else numerical.uncertainty,
-            inputs=None if inputs is None else inputs.get(quantity),
+            **{part: None if inputs is None else inputs.get(quantity)},
             mesh_order=None if mesh is None else mesh.observed,
             mesh_safety=None if mesh is None else mesh.safety,
             grid_order=None if numerical is None else numerical.grid.observed,

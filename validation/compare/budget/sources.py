@@ -29,10 +29,10 @@ from validation.runs.cached import (
     cached_numbers,
     cached_reference,
     cached_rom,
-    key_of,
     reference_key,
     rom_key,
 )
+from validation.runs.keys import key_of
 from validation.runs.matched_inflow import with_inflow_of
 from validation.runs.reduced_model import ReducedModelRun
 

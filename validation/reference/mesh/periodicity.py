@@ -98,7 +98,8 @@ WATCHED = ("pressure", "flow rate", "lumen volume")
 def _watched(state: MappedState, mapper: Mapper) -> tuple[Floats, Floats, Floats]:
     """Pressure of cells, Pa, flow rate of sections, m³/s, and Σ R² of cells, m², which goes as the volume."""
     sectors = mapper.rays.mean(state.velocity[..., 0]) * state.sector_area
-    return state.pressure, 0.5 * mapper.rays.dphi * sectors.sum(axis=-1), np.sum(state.sector_area)
+    flow: Floats = 0.5 * mapper.rays.dphi * sectors.sum(axis=-1)
+    return state.pressure, flow, np.asarray(np.sum(state.sector_area))
 
 
 def periodicity_doubts(change: CycleChange | None) -> tuple[str, ...]:
