@@ -58,7 +58,12 @@ def sentence(found: Budget) -> str:
 
 
 def of_band(comparison: Comparison, row: MetricRow) -> str:
-    """Say behind a band whose error it is; "" where the comparison holds no budget of its quantity."""
+    """Say behind a band whose error it is; "" where the comparison holds no budget of its quantity.
+
+    Budgets are of relative errors: of a difference over the size of 3D only the run with its inflow tells.
+    """
+    if row.statistic.startswith("rms_over_"):
+        return _with_inflow_of_3d(comparison, row)
     found = budget(comparison, row.variant, row.quantity)
     if found is None:
         return ""
@@ -69,3 +74,11 @@ def of_band(comparison: Comparison, row: MetricRow) -> str:
         if half is not None and (found[part] or 0.0) > half
     ]
     return "; ".join([sentence(found), *large])
+
+
+def _with_inflow_of_3d(comparison: Comparison, row: MetricRow) -> str:
+    own = (row.variant, row.quantity, row.statistic, "matched")
+    for each in comparison.metrics.rows:
+        if (each.variant, each.quantity, each.statistic, each.inflow) == own and each.error is not None:
+            return f"{share(each.error)} with the inflow of the 3D mesh"
+    return ""

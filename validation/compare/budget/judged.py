@@ -3,7 +3,7 @@
 import xarray as xr
 
 from cases.arrays import Floats
-from cases.quantities import of_cycle, pooled
+from cases.quantities import of_cycle, pooled, reads
 from validation.metrics.quantities import values_of
 from validation.metrics.statistics import relative_error
 
@@ -14,5 +14,7 @@ def judged_quantities() -> tuple[str, ...]:
 
 
 def apart(quantity: str, ours: xr.Dataset, theirs: xr.Dataset) -> Floats | None:
-    """Relative distance of a quantity in one model from another; None where that has no meaning."""
+    """Relative distance of a quantity in one model from another; None where it has no meaning or is lacking."""
+    if not all(name in model for model in (ours, theirs) for name in reads(quantity)):
+        return None  # profiles of two modes have no exponent
     return relative_error(values_of(quantity, ours), values_of(quantity, theirs))
