@@ -14,7 +14,7 @@ def judged_quantities() -> tuple[str, ...]:
 
 
 def apart(quantity: str, ours: xr.Dataset, theirs: xr.Dataset) -> Floats | None:
-    """Relative distance of a quantity in one model from another; None without meaning, or where one lacks it."""
+    """Relative distance of a quantity between models; None without meaning, or where one lacks it."""
     if not all(name in model for model in (ours, theirs) for name in reads(quantity)):
         return None  # profiles of two modes have no exponent
     return relative_error(values_of(quantity, ours), values_of(quantity, theirs))
