@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from cases.sections.references.base import ReferenceSection
 from cases.sections.references.febio import FebioReference
 from cases.sections.references.tables import TablesReference
+from cases.sections.references.vtk import VtkReference
+from cases.sections.references.xdmf import XdmfReference
 
 
 @dataclass(frozen=True)
@@ -23,4 +25,6 @@ class RegisteredKind:
 KINDS = {
     "febio": RegisteredKind(FebioReference, "validation.reference.febio.series"),
     "tables": RegisteredKind(TablesReference, "validation.reference.tables"),
+    "vtk": RegisteredKind(VtkReference, "validation.reference.grid.vtk"),
+    "xdmf": RegisteredKind(XdmfReference, "validation.reference.grid.xdmf"),
 }
