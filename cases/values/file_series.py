@@ -1,8 +1,9 @@
-"""Files that hold the states of a 3D result: a pattern with numbers, a .pvd collection, a list, or one file."""
+"""Files of the states of a 3D result: a pattern with numbers, a .pvd collection, a list, or one file."""
 
 import re
 from collections import defaultdict
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -84,7 +85,7 @@ def _numbered(stated: str, folder: Path) -> FileSeries:
         files = sorted((int(match[1]), where / match[0]) for match in matches if match)
         if files:
             numbers, paths = zip(*files, strict=True)
-            twice = [number for number, after in zip(numbers, numbers[1:], strict=False) if number == after]
+            twice = [number for number, after in pairwise(numbers) if number == after]
             if twice:
                 raise refused(stated, "one file a number", f"two files of number {twice[0]}")
             others = tuple(other for path in paths for other in companions(path))
@@ -136,8 +137,9 @@ def companions(path: Path) -> tuple[Path, ...]:
         named = [path.parent / name for name in names]
         return tuple(f for file in named if file.is_file() for f in (file.resolve(), *companions(file)))
     if path.suffix in (".xdmf", ".xmf"):
-        names = dict.fromkeys(NAMED_IN_XDMF.findall(path.read_text(encoding="utf-8", errors="replace")))
-        return tuple(file.resolve() for file in (path.parent / name for name in names) if file.is_file())
+        text = path.read_text(encoding="utf-8", errors="replace")
+        heavy = [path.parent / name for name in dict.fromkeys(NAMED_IN_XDMF.findall(text))]
+        return tuple(file.resolve() for file in heavy if file.is_file())
     if path.suffix == ".foam":
         folders = [f for f in sorted(path.parent.iterdir()) if f.is_dir() and _is_time(f.name)]
         mesh = path.parent / "constant" / "polyMesh"

@@ -29,12 +29,18 @@ class MeshModel:
         Number of a state → its nodal values; raises UnusableReferenceError where one is not finite.
     notes : tuple of str
         What was left out.
+    nodal_velocity : bool
+        Whether the files have velocity at nodes, so that it is exact at the wall.
+    unloaded : bool
+        Whether the mesh's radius must be the case's.
     """
 
     mesh: LumenMesh
     calcified: list[Block] | None
     read: Callable[[int], MeshState]
     notes: tuple[str, ...]
+    nodal_velocity: bool = True
+    unloaded: bool = True
 
 
 def mesh_model(series: MeshSeries, stated: MeshReference) -> MeshModel:
@@ -62,9 +68,10 @@ def mesh_model(series: MeshSeries, stated: MeshReference) -> MeshModel:
                 raise UnusableReferenceError(f"{name} of state {number + 1}: not finite everywhere")
         return nodal
 
+    known = (found.velocity_at == "nodes", found.unloaded)
     if stated.symmetry is None:
         mesh = lumen_mesh(coordinates, found.lumen, found.wall)
-        return MeshModel(mesh, found.calcified, read, found.notes)
+        return MeshModel(mesh, found.calcified, read, found.notes, *known)
     used = np.unique(np.concatenate([block.nodes.ravel() for block in (*found.lumen, *found.wall)]))
     both = mirror(coordinates, used, place.directions(np.array(components(stated.symmetry))))
 
@@ -82,6 +89,7 @@ def mesh_model(series: MeshSeries, stated: MeshReference) -> MeshModel:
             *found.notes,
             f"{Path(series.name).name} holds one half; the other is its image in the plane of symmetry",
         ),
+        *known,
     )
 
 
