@@ -129,7 +129,7 @@ def _read(
     unlike += motion.doubts() if model.nodal_velocity else []
     checks = plane_checks(model, alignment, case, rays)
     unlike += [] if model.calcified is None else doubts(case, model.mesh.coordinates, model.calcified)
-    rigid = (RIGID,) if motion.still else ()
+    rigid = (RIGID,) if motion.still and not model.unloaded else ()
     return Reference(
         fields=fields,
         checks=checks.assign(inlet_flow_rate=("time", inflow), inlet_area=("time", inlet_area)),
