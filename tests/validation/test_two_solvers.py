@@ -88,8 +88,10 @@ def test_tetrahedra_of_svmultiphysics(tmp_path):
     radius = found.fields["radius"] / 2.5e-3 - 1
     assert 0.09 < float(radius.isel(x=0).max()) < 0.125  # its README: 9.5 to 11.8 %
     assert 0.04 < float(radius.sel(x=7.5e-3, phi=np.pi, method="nearest").min()) < 0.06
-    assert float(found.fields["section_pressure"].min()) == pytest.approx(11.57e3, rel=5e-3)
-    assert float(found.fields["section_pressure"].max()) == pytest.approx(14.67e3, rel=5e-3)
+    written = [pv.read(path) for path in sorted(TETRAHEDRA.glob("*.vtu"))]
+    lumen = [grid.extract_cells(grid.cell_data["Domain_ID"] == 1) for grid in written]
+    pressure = [0.1 * grid.point_data["Pressure"].mean() for grid in lumen]  # varies by 0.3 % in the lumen
+    np.testing.assert_allclose(found.fields["section_pressure"].mean("x"), pressure, rtol=2e-3)
     assert float(found.checks["inlet_flow_rate"].mean()) == pytest.approx(2.37e-6, rel=0.02)
 
 

@@ -92,10 +92,11 @@ def write_legacy(folder, tube, cells, times, **options):
 
 
 def write_xdmf(folder, tube, cells, times, deformed=False, factor=1.0):
-    """Fields in two files, as FEniCS writes them."""
+    """Fields in two files, as FEniCS writes them; cells of one type in one block, as meshio reads quadratic."""
     points, arrays = state_of(tube, deformed, factor)
-    blocks = [(MESHIO_TYPE[kind], nodes) for kind, nodes, _ in cells]
-    domain = [np.full(len(nodes), d) for _, nodes, d in cells]
+    alike = {kind: [part for part in cells if part[0] == kind] for kind, _, _ in cells}
+    blocks = [(MESHIO_TYPE[kind], np.vstack([part[1] for part in same])) for kind, same in alike.items()]
+    domain = [np.concatenate([np.full(len(part[1]), part[2]) for part in same]) for same in alike.values()]
     first = {"Velocity": arrays["Velocity"]}
     rest = {name: values for name, values in arrays.items() if name != "Velocity"}
     with contextlib.chdir(folder):  # meshio writes the HDF5 file into the working folder

@@ -80,14 +80,13 @@ class VtkFiles:
 
     @cached_property
     def _own_times(self) -> tuple[float, ...] | None:
-        """Times in the one file of all states; None where there is a file for each state."""
-        for part in self.stated.parts:
-            if len(part.paths) == 1:
-                with _vtk_reader(part.paths[0]) as reader:
-                    times = _times_of(reader)
-                if times:
-                    return times
-        return None
+        """Times in files of all states, which must be the same; None where there is a file for each state."""
+        alone = [part.paths[0] for part in self.stated.parts if len(part.paths) == 1]
+        times = {path.name: times for path in alone if (times := _times_in(path))}
+        for name, other in times.items():
+            if other != next(iter(times.values())):
+                raise UnusableReferenceError(f"{name}: other times than {next(iter(times))}")
+        return next(iter(times.values()), None)
 
     def first(self) -> Grid:
         """Return the first state of all files there are, also of those before ``first``."""
@@ -108,7 +107,7 @@ class VtkFiles:
         grids: list[Grid] = []
         for part, place in files:
             with _vtk_reader(part.paths[place]) as reader:
-                times = _times_of(reader)
+                times = _times_of(reader) if len(part.paths) == 1 else ()
                 if times:
                     reader.UpdateTimeStep(times[number])
                 else:
@@ -140,6 +139,11 @@ def _vtk_reader(path: Path) -> Iterator[Any]:
     if "ERR|" in words or "ERROR" in words:
         reason = words.strip().splitlines()[-1].split("): ")[-1]
         raise UnusableReferenceError(f"{path.name}: VTK cannot read it whole: {reason}")
+
+
+def _times_in(path: Path) -> tuple[float, ...]:
+    with _vtk_reader(path) as reader:
+        return _times_of(reader)
 
 
 def _times_of(reader: Any) -> tuple[float, ...]:

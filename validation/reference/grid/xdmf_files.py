@@ -87,7 +87,8 @@ def _telling(name: str) -> Iterator[None]:
     try:
         yield
     except UNREADABLE as error:
-        reason = " ".join(str(error).split()) or type(error).__name__
+        words = repr(error) if isinstance(error, KeyError) else str(error)
+        reason = " ".join(words.split()) or type(error).__name__
         raise UnusableReferenceError(f"{name}: meshio cannot read it: {reason}") from error
 
 

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from cases.arrays import Floats
-from cases.sections.case import Case, PressureOutlet, ResistanceOutlet, WindkesselOutlet
+from cases.sections.case import Case
 from cases.sections.inlet import PressureInlet, ReferenceInlet
+from cases.sections.outlet import PressureOutlet, ResistanceOutlet, WindkesselOutlet
 from solver.case.model import inlet_signal
 from validation.errors import UnusableReferenceError
 from validation.mapping.mesh import LumenMesh
