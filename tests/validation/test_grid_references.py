@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import pyvista as pv
 from small_case import bands, small_case, written
-from tube_grids import WRITERS, cells_of, grid_of, write_pvd, write_xdmf
+from tube_grids import WRITERS, cells_of, grid_of, write_ensight, write_openfoam, write_pvd, write_xdmf
 from tubes import Tube
 
 from cases.reading.case_file import load_case_file
@@ -87,6 +87,27 @@ def test_deformed_points(tmp_path, write):
     assert radius < 5e-3
     with pytest.raises(Exception, match="the unloaded lumen's radius is"):
         read(tmp_path, plain)
+
+
+def test_ensight(tmp_path):
+    tube = Tube(sectors=16, rings=6, stacks=12, layers=1)
+    found = read(tmp_path, STATED | write_ensight(tmp_path, *cells_of(tube, "hexahedra"), TIMES), tube)
+    radius, flow = errors(found, tube)
+    assert radius < 3e-3
+    assert flow < 0.045
+
+
+def test_openfoam(tmp_path):
+    """CFD alone with values of cells: their means carry the flow, and nothing slips at the wall."""
+    tube = Tube(sectors=24, rings=8, stacks=20)
+    found = read(tmp_path, {"axis": "x", "phi_zero": "y"} | write_openfoam(tmp_path, tube, TIMES), tube)
+    radius, flow = errors(found, tube)
+    assert radius < 2e-3
+    assert flow < 0.02  # 24 sides enclose 1.1 % less
+    pressure = found.fields["section_pressure"].isel(time=0)
+    np.testing.assert_allclose(pressure, tube.pressure(pressure["x"]), rtol=2e-4)
+    assert RIGID in found.notes
+    assert found.warnings == ()
 
 
 def test_rigid_walls(tmp_path):

@@ -1,5 +1,6 @@
 """Files that VTK reads, one state at a time."""
 
+import re
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pyvista as pv
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 from cases.arrays import Floats
@@ -20,6 +21,7 @@ from validation.errors import UnusableReferenceError
 from validation.reference.grid.contents import Grid, Piece, joined
 
 TIME_STEPS = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+ERROR = re.compile(r"(?:ERROR: In [^\n]*\n|ERR\|)[^\n]*?\): ([^\n]+)")  # in VTK's output window
 ONE_AT_A_TIME = threading.Lock()  # VTK's output window, which errors go to, is one for all threads
 
 
@@ -124,10 +126,14 @@ def _vtk_reader(path: Path) -> Iterator[Any]:
     """Open a file with VTK's reader of its kind; what VTK says of errors is raised."""
     with ONE_AT_A_TIME:
         said = vtkStringOutputWindow()
-        usual = vtkOutputWindow.GetInstance()
+        usual, loud = vtkOutputWindow.GetInstance(), vtkLogger.GetCurrentVerbosityCutoff()
         vtkOutputWindow.SetInstance(said)
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
         try:
-            reader = pv.get_reader(path).reader  # type: ignore[no-untyped-call]
+            found = pv.get_reader(path)  # type: ignore[no-untyped-call]
+            if isinstance(found, pv.OpenFOAMReader):
+                found.cell_to_point_creation = False  # its values are of cells; means at nodes slip at walls
+            reader = found.reader
             reader.UpdateInformation()
             yield reader
         except (ValueError, OSError, RuntimeError) as error:
@@ -135,10 +141,10 @@ def _vtk_reader(path: Path) -> Iterator[Any]:
             raise UnusableReferenceError(f"{path.name}: VTK cannot read it: {reason}") from error
         finally:
             vtkOutputWindow.SetInstance(usual)
-        words = said.GetOutput()
-    if "ERR|" in words or "ERROR" in words:
-        reason = words.strip().splitlines()[-1].split("): ")[-1]
-        raise UnusableReferenceError(f"{path.name}: VTK cannot read it whole: {reason}")
+            vtkLogger.SetStderrVerbosity(loud)
+        error = ERROR.search(said.GetOutput())
+    if error:
+        raise UnusableReferenceError(f"{path.name}: VTK cannot read it whole: {error[1]}")
 
 
 def _times_in(path: Path) -> tuple[float, ...]:

@@ -12,8 +12,12 @@ from validation.errors import UnusableReferenceError
 from validation.mapping.interpolation import topology
 from validation.mapping.mesh import Block, LumenMesh, lumen_mesh, padded
 from validation.mapping.mirror import mirror
-from validation.mapping.pressure import recovery_operator
+from validation.mapping.pressure import element_means, recovery_operator
 from validation.reference.mesh.series import MeshSeries, MeshState, SeriesMesh
+
+Recovery = Callable[[Floats], Floats]
+# Of nodal velocity, by what its means in the cells miss: 2 to 20 % of the flow by one fit alone.
+CORRECTIONS = 2
 
 
 @dataclass(frozen=True)
@@ -54,14 +58,14 @@ def mesh_model(series: MeshSeries, stated: MeshReference) -> MeshModel:
     found = series.mesh()
     place = frame(stated.axis, stated.phi_zero, stated.origin)
     coordinates = place.points(found.coordinates)
-    to_nodes = _to_nodes(found, coordinates)
+    of_velocity, of_pressure = _to_nodes(found, coordinates)
 
     def read(number: int) -> MeshState:
         state = series.state(number)
         nodal = MeshState(
             place.points(state.positions),
-            place.directions(to_nodes(state.velocity) if found.velocity_at == "cells" else state.velocity),
-            to_nodes(state.pressure) if found.pressure_at == "cells" else state.pressure,
+            place.directions(of_velocity(state.velocity) if found.velocity_at == "cells" else state.velocity),
+            of_pressure(state.pressure) if found.pressure_at == "cells" else state.pressure,
         )
         for name, array in zip(nodal._fields, nodal, strict=True):
             if not np.all(np.isfinite(array)):
@@ -93,12 +97,20 @@ def mesh_model(series: MeshSeries, stated: MeshReference) -> MeshModel:
     )
 
 
-def _to_nodes(found: SeriesMesh, coordinates: Floats) -> Callable[[Floats], Floats]:
-    """Return how values of the lumen's cells become nodal, zero off the lumen."""
+def _to_nodes(found: SeriesMesh, coordinates: Floats) -> tuple[Recovery, Recovery]:
+    """Return how velocity and pressure of the lumen's cells become nodal, zero off the lumen."""
     if "cells" not in (found.velocity_at, found.pressure_at):
-        return lambda values: values
-    operator = recovery_operator(topology(*padded(found.lumen), len(coordinates)), coordinates)
-    return lambda values: np.asarray(operator @ values)
+        return np.asarray, np.asarray
+    mesh = topology(*padded(found.lumen), len(coordinates))
+    operator, means = recovery_operator(mesh, coordinates), element_means(mesh, len(coordinates))
+
+    def velocity(values: Floats) -> Floats:
+        nodal = np.asarray(operator @ values)
+        for _ in range(CORRECTIONS):
+            nodal = nodal + operator @ (values - means @ nodal)
+        return nodal
+
+    return velocity, lambda values: np.asarray(operator @ values)
 
 
 @dataclass(frozen=True)
