@@ -21,10 +21,14 @@ def fields(content, folder):
     return kind_of(name, only).read(only, CELLS, None, None)
 
 
+@pytest.fixture(scope="module")
+def plot(tmp_path_factory):
+    return fields(small_case("local"), tmp_path_factory.mktemp("plot")).fields
+
+
 @pytest.mark.parametrize("file_format", ["vtu", "vtkhdf"])
-def test_a_febio_run_through_vtk_gives_the_plot_files_fields(tmp_path, file_format):
+def test_a_febio_run_through_vtk_gives_the_plot_files_fields(tmp_path, file_format, plot):
     content = small_case("local")
-    plot = fields(content, tmp_path).fields
     with open_plot(RUNS / "local.xplt") as opened:
         export_plot(opened, tmp_path / "files", file_format)
     ending = "pvd" if file_format == "vtu" else "vtkhdf"

@@ -142,9 +142,9 @@ def _vtk_reader(path: Path) -> Iterator[Any]:
         finally:
             vtkOutputWindow.SetInstance(usual)
             vtkLogger.SetStderrVerbosity(loud)
-        error = ERROR.search(said.GetOutput())
-    if error:
-        raise UnusableReferenceError(f"{path.name}: VTK cannot read it whole: {error[1]}")
+        told = ERROR.search(said.GetOutput())
+    if told:
+        raise UnusableReferenceError(f"{path.name}: VTK cannot read it whole: {told[1]}")
 
 
 def _times_in(path: Path) -> tuple[float, ...]:
