@@ -1,5 +1,9 @@
 """References of VTK and XDMF: tubes of formulas in cells of every type, and what may be wrong with files."""
 
+import copy
+from xml.etree import ElementTree
+
+import h5py
 import numpy as np
 import pytest
 import pyvista as pv
@@ -174,11 +178,23 @@ def back_in_time(folder):
     path.write_text(text.replace(f'timestep="{TIMES[2]}"', f'timestep="{TIMES[1]}"'))
 
 
-def scaled_pressure(folder):
+def scaled(folder, name, factor):
     for k in range(len(TIMES)):
         grid = pv.read(folder / f"tube_{k}.vtu")
-        grid.point_data["Pressure"] *= 10.0
+        grid.point_data[name] *= factor
         grid.save(folder / f"tube_{k}.vtu")
+
+
+def scaled_pressure(folder):
+    scaled(folder, "Pressure", 10.0)
+
+
+def fast_blood(folder):
+    scaled(folder, "Velocity", 100.0)
+
+
+def blood_backwards(folder):
+    scaled(folder, "Velocity", -1.0)
 
 
 def blood_paths(folder):
@@ -236,6 +252,19 @@ WRONG = [
         "the files state their times; allowed: no time_step",
     ),
     (unchanged, {"axis": "-"}, "reference.axis"),
+    (unchanged, {"lumen": {"array": "Domain_ID"}}, "allowed: {array: …, values: […]}, {file: …} or {block"),
+    (
+        unchanged,
+        {"first": 7, "last": 9},
+        "9; allowed: a number that leaves files; there are numbers from 0",
+    ),
+    (
+        unchanged,
+        {"pressure_unit": "kPa", "pressure_density": "1060 kg/m^3"},
+        "1060 kg/m^3; allowed: no pressure_unit beside a kinematic pressure",
+    ),
+    (fast_blood, {}, "reference.length_unit over reference.time_unit, cannot be right"),
+    (blood_backwards, {}, "blood flows against the inflow of the case"),
     (rotated_in_the_middle, {}, "tube_2.vtu: another mesh than in the first file"),
     (moved_points, {}, "so that they are deformed ones; allowed: reference.positions deformed"),
     (
@@ -260,6 +289,47 @@ def test_what_is_wrong_is_told(tmp_path, refused, damage, stated, message):
     reference = STATED | write_pvd(folder, tube, parts, TIMES)
     damage(folder)
     assert message in refused(case_with(reference | stated))
+
+
+def other_times(folder):
+    path = folder / "rest.xdmf"
+    path.write_text(path.read_text().replace(f'Value="{TIMES[2]}"', f'Value="{TIMES[2] + 0.01}"'))
+
+
+def another_mesh(folder):
+    with h5py.File(folder / "rest.h5", "r+") as file:
+        points = next(data for data in file.values() if data.dtype == float and data.ndim == 2)
+        points[0] += 1e-4
+
+
+def no_heavy_data(folder):
+    (folder / "rest.h5").unlink()
+
+
+def two_series(folder):
+    path = folder / "rest.xdmf"
+    tree = ElementTree.parse(path)  # noqa: S314 - written above
+    domain = tree.getroot().find("Domain")
+    domain.append(copy.deepcopy(next(grid for grid in domain if grid.get("CollectionType") == "Temporal")))
+    tree.write(path)
+
+
+WRONG_XDMF = [
+    (other_times, "rest.xdmf: other times than velocity.xdmf"),
+    (another_mesh, "rest.xdmf: another mesh than velocity.xdmf; allowed: one mesh in all files"),
+    (no_heavy_data, "rest.xdmf: meshio cannot read it"),
+    (two_series, "rest.xdmf: 2 series in one file (TimeSeries_meshio, TimeSeries_meshio); allowed: a file"),
+]
+
+
+@pytest.mark.parametrize(("damage", "message"), WRONG_XDMF, ids=lambda x: getattr(x, "__name__", None))
+def test_what_is_wrong_with_xdmf_is_told(tmp_path, refused, damage, message):
+    tube, parts = cells_of(COARSE, "hexahedra")
+    folder = tmp_path / "files"
+    folder.mkdir()
+    reference = STATED | write_xdmf(folder, tube, parts, TIMES)
+    damage(folder)
+    assert message in refused(case_with(reference))
 
 
 def test_a_wall_apart_is_told(tmp_path, refused):

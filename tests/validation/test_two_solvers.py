@@ -147,12 +147,14 @@ def test_what_inspect_prints_can_be_pasted(tmp_path, capsys):
     assert found.description["states_compared"] == 41
 
 
-def test_inspect_refuses_what_is_no_result(tmp_path, capsys):
+def test_inspect_refuses_what_is_no_result_in_one_line(tmp_path, capfd):
     from validation.reference import command
 
     path = tmp_path / "empty.vtu"
     path.write_text("nothing")
     assert command.main([str(path)]) == 2
-    assert "empty.vtu: VTK cannot read it" in capsys.readouterr().err
+    (line,) = capfd.readouterr().err.splitlines()
+    assert "empty.vtu: VTK cannot read it" in line
     assert command.main(["not_there.vtu"]) == 2
-    assert "not_there.vtu: no such file" in capsys.readouterr().err
+    (line,) = capfd.readouterr().err.splitlines()
+    assert "not_there.vtu: no such file" in line
