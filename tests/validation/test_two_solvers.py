@@ -1,6 +1,7 @@
 """Other ways to the same numbers: FEBio's run through VTK's files, and svMultiPhysics' run read wrongly."""
 
 import numpy as np
+import pandas as pd
 import pytest
 import pyvista as pv
 from small_case import ROOT, RUNS, bands, small_case, written
@@ -158,3 +159,13 @@ def test_inspect_refuses_what_is_no_result_in_one_line(tmp_path, capfd):
     assert command.main(["not_there.vtu"]) == 2
     (line,) = capfd.readouterr().err.splitlines()
     assert "not_there.vtu: no such file" in line
+
+
+@pytest.mark.long  # two models and 41 states twice: minutes
+def test_the_bands_of_the_ready_case_hold(tmp_path):
+    from validation.compare import command
+
+    case = str(ROOT / "cases/svmultiphysics.yaml")
+    assert command.main([case, "--check", "--output", str(tmp_path / "result")]) == 0
+    metrics = pd.read_csv(tmp_path / "result/metrics.csv")
+    assert metrics["status"].notna().sum() == 8
