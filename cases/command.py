@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from cases.reading.case_file import CaseFile
     from cases.sections.case import Case
 
+MOST_LISTED = 6  # files of a reference
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Exit status: 0, or 2 where a file is wrong."""
@@ -66,7 +68,11 @@ def summary(case: Case) -> str:
     """Describe a case in a line."""
     solver, bands = case.solver, len(case.compare.bands)
     files = () if case.reference is None else case.reference.files
-    reference = f"reference {', '.join(path.name for path in files)}" if files else "no reference"
+    names = [path.name for path in files]
+    listed = (
+        ", ".join(names) if len(names) <= MOST_LISTED else f"{names[0]} … {names[-1]} ({len(names)} files)"
+    )
+    reference = f"reference {listed}" if files else "no reference"
     return (
         f"calcification {case.calcification.pattern}, {solver.n_x} x {solver.n_phi} cells, "
         f"{solver.cycles} cycles of {case.inlet.period:g} s, {reference}, "

@@ -11,8 +11,7 @@
 
 ``pyvista.read("case.xplt")`` works without an import, by an entry point, where this package is installed
 beside pyvista 0.49 or later. ``meshio.read("case.xplt")`` works after ``import
-febio_io.views.meshio_format``, as meshio knows no entry points; meshio itself is an optional requirement:
-``pip install arterial-rom-validation[meshio]``.
+febio_io.views.meshio_format``, as meshio knows no entry points.
 
 ``python -m febio_io FILE`` tells what a file holds, and writes results in other formats; ``python -m
 febio_io.feb CASE.yaml`` writes FEBio's model of a case, and ``python -m febio_io.run MODEL.feb`` runs it.

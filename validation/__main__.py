@@ -13,6 +13,7 @@ COMMANDS = {
     "compare": ("validation.compare", "compare the reduced model with a 3D reference, and write a report"),
     "report": ("reports", "draw the reports of finished comparisons or sweeps again"),
     "sweep": ("validation.sweep", "run a case over ranges and distributions of its numbers"),
+    "inspect": ("validation.reference", "tell what files of a 3D result hold, and how a case states them"),
     "calibrate": ("validation.calibrate", "fit numbers of a case to pressures or to a 3D run"),
     "converge": ("validation.converge", "tell what the reduced model's numbers owe to its grid and steps"),
     "ablation": ("validation.ablation", "tell what each part of the coupled model buys against 3D"),

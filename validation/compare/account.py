@@ -33,9 +33,7 @@ def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
     for run in runs.values():
         notes += [] if run.sources is None else run.sources.notes
     stated = ", ".join(f"{value:g}" for value in sorted({run.case.blood.viscosity for run in runs.values()}))
-    notes.append(
-        f"viscosity of the reduced model: {stated} Pa s; the plot file does not state the reference's"
-    )
+    notes.append(f"viscosity of the reduced model: {stated} Pa s; the reference does not state its own")
     return list(dict.fromkeys(notes))
 
 

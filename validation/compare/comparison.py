@@ -153,7 +153,10 @@ def attributes(file: CaseFile, times: Floats) -> dict[str, Any]:
     case = next(iter(file.variants.values()))
     instants = nearest_states(wanted_instants(case), times)
     if not instants:
-        raise ValidationError("compare.times: the reference has no state near any of them")
+        raise ValidationError(
+            "compare.times: the reference has no state near any of them; its states are at "
+            f"{times.min():.3g} to {times.max():.3g} s of the cycle (reference.time_offset, time_unit)"
+        )
     return {
         "Conventions": CONVENTIONS,
         "case": file.name,

@@ -42,21 +42,26 @@ class ComparisonFile:
             If the file cannot be written.
         """
         try:
-            if not set(dataset.sizes) <= set(self._file.dimensions):
-                self._define(dataset)
+            self._define(dataset)
             for name, values in dataset.data_vars.items():
                 self._file[str(name)][self._variants.index(variant)] = values.to_numpy()
         except (OSError, RuntimeError) as error:  # netCDF reports a full disk as RuntimeError
             raise ValidationError(f"comparison.nc cannot be written: {error}") from error
 
     def _define(self, dataset: xr.Dataset) -> None:
+        """Add axes and variables that no earlier variant had: another model may give more fields."""
+        there = set(self._file.variables)
         for name, axis in dataset.coords.items():
+            if name in there:
+                continue
             words = axis.dtype.kind in "OU"
             self._file.createDimension(str(name), axis.size)
             stored = self._file.createVariable(str(name), str if words else axis.dtype, (str(name),))
             stored.setncatts(axis.attrs)
             stored[:] = axis.to_numpy().astype(object) if words else axis.to_numpy()
         for name, values in dataset.data_vars.items():
+            if name in there:
+                continue
             stored = self._file.createVariable(
                 str(name),
                 values.dtype,

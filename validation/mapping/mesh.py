@@ -83,6 +83,16 @@ def padded(blocks: Iterable[Block]) -> tuple[Integers, Integers]:
     return np.concatenate(kinds), np.concatenate(nodes)
 
 
+def _shared(boundary: Integers, wall: list[Block]) -> Integers:
+    """Faces of the lumen's boundary that belong to the wall too."""
+    return boundary[np.isin(_keys(boundary), np.unique(_keys(boundary_faces(wall))))]
+
+
+def _other_than(boundary: Integers, *ends: Integers) -> Integers:
+    """Faces of the lumen's boundary that are not at its ends."""
+    return boundary[~np.isin(_keys(boundary), _keys(np.concatenate(ends)))]
+
+
 def lumen_mesh(coordinates: Floats, lumen: list[Block], wall: list[Block]) -> LumenMesh:
     """Find the boundary of the lumen.
 
@@ -91,7 +101,8 @@ def lumen_mesh(coordinates: Floats, lumen: list[Block], wall: list[Block]) -> Lu
     coordinates : ndarray (n_nodes, 3)
         Reference coordinates in the artery's frame (x along the axis from the inlet), m.
     lumen, wall : list of Block
-        Elements of blood and of wall, which share the interface's nodes.
+        Elements of blood and of wall, which share the interface's nodes. Without wall elements the interface
+        is the lumen's surface between its ends.
 
     Raises
     ------
@@ -99,10 +110,6 @@ def lumen_mesh(coordinates: Floats, lumen: list[Block], wall: list[Block]) -> Lu
         If lumen and wall share no face, or inlet or outlet has none.
     """
     boundary = boundary_faces(lumen)
-    wall_keys = np.unique(_keys(boundary_faces(wall)))
-    interface = boundary[np.isin(_keys(boundary), wall_keys)]
-    if not len(interface):
-        raise UnusableReferenceError("lumen and wall elements share no face: no lumen–wall interface")
     kinds, nodes = padded(lumen)
     lumen_nodes = np.unique(nodes[nodes >= 0])
     along = coordinates[lumen_nodes, 0]
@@ -114,6 +121,9 @@ def lumen_mesh(coordinates: Floats, lumen: list[Block], wall: list[Block]) -> Lu
     for name, faces in (("inlet", inlet), ("outlet", outlet)):
         if not len(faces):
             raise UnusableReferenceError(f"the lumen has no plane {name} across the artery's axis")
+    interface = _shared(boundary, wall) if wall else _other_than(boundary, inlet, outlet)
+    if not len(interface):
+        raise UnusableReferenceError("lumen and wall elements share no face: no lumen–wall interface")
     return LumenMesh(
         coordinates=coordinates,
         lumen=topology(kinds, nodes, len(coordinates)),

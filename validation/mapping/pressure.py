@@ -21,6 +21,14 @@ def element_centres(mesh: Topology, coordinates: Floats) -> Floats:
     return np.asarray(points.sum(axis=1) / present.sum(axis=1)[:, None])
 
 
+def element_means(mesh: Topology, n_nodes: int) -> csr_array:
+    """Matrix (n_e, n_nodes) that turns nodal values into the mean of each element's nodes."""
+    elements, columns = np.nonzero(mesh.nodes >= 0)
+    counts = np.bincount(elements)
+    shape = (len(counts), n_nodes)
+    return csr_array((1.0 / counts[elements], (elements, mesh.nodes[elements, columns])), shape=shape)
+
+
 def recovery_operator(mesh: Topology, coordinates: Floats) -> csr_array:
     """Matrix (n_nodes, n_e) that turns element averages into nodal values; zero rows off the mesh.
 

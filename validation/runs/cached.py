@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from cases.sections.case import Case
 from validation.errors import ValidationError
@@ -16,15 +16,6 @@ from validation.runs.keys import key_of
 from validation.runs.provenance import shown_path
 from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
 
-
-class _Described(Protocol):
-    """A result that says of itself what it is."""
-
-    @property
-    def description(self) -> dict[str, Any]: ...
-
-
-T = TypeVar("T", bound=_Described)
 Remark = Callable[[str], None]
 
 
@@ -34,6 +25,9 @@ class Numbers:
 
     values: dict[str, Any]
     description: dict[str, Any] = field(default_factory=dict)
+
+
+T = TypeVar("T", ReducedModelRun, Reference, Numbers)
 
 
 def rom_key(case: Case, alignment: Alignment, rays: Rays) -> str:
@@ -96,7 +90,7 @@ def cached_reference(
         }
         return Entry(datasets, facts)
 
-    return cached(
+    return _cached(
         store,
         lambda: reference_key(case, alignment, rays),
         lambda: kind.read(case, rays, progress, alignment),
@@ -128,7 +122,7 @@ def cached_rom(
         datasets = {"fields": found.fields, "wall": found.stiffness.to_dataset(name="wall_stiffness")}
         return Entry(datasets, {"cycle_change": found.cycle_change, "description": found.description})
 
-    return cached(
+    return _cached(
         store,
         lambda: rom_key(case, alignment, rays),
         computed,
@@ -142,7 +136,7 @@ def cached_numbers(
     store: Cache | None, key: Callable[[], str], compute: Callable[[], Numbers], remark: Remark
 ) -> Numbers:
     """Compute some numbers, or take them from the cache."""
-    return cached(
+    return _cached(
         store,
         key,
         compute,
@@ -152,7 +146,7 @@ def cached_numbers(
     )
 
 
-def cached(
+def _cached(
     store: Cache | None,
     key: Callable[[], str],
     compute: Callable[[], T],

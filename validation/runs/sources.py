@@ -114,6 +114,7 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
 @cache
 def code_digest(kind: Kind) -> str:
     """Digest of the code that determines one kind of result, and of the libraries' versions."""
-    libraries = (*LIBRARIES, "pyvista", "vtk") if kind in ("reference", "budget", "sweep") else LIBRARIES
+    meshes = ("h5py", "meshio", "pyvista", "vtk")
+    libraries = (*LIBRARIES, *meshes) if kind in ("reference", "budget", "sweep") else LIBRARIES
     sources = dict.fromkeys(DETERMINANTS[kind])
     return sources_digest((ROOT / source for source in sources), libraries)

@@ -11,6 +11,8 @@ from cases.sections.references.base import ReferenceSection
 from cases.sections.references.febio import FebioReference
 from cases.sections.references.series import SeriesReference
 from cases.sections.references.tables import TablesReference
+from cases.sections.references.vtk import VtkReference
+from cases.sections.references.xdmf import XdmfReference
 
 
 @dataclass(frozen=True)
@@ -25,4 +27,6 @@ KINDS = {
     "febio": RegisteredKind(FebioReference, "validation.reference.febio.series"),
     "series": RegisteredKind(SeriesReference, "validation.reference.series"),
     "tables": RegisteredKind(TablesReference, "validation.reference.tables"),
+    "vtk": RegisteredKind(VtkReference, "validation.reference.grid.vtk"),
+    "xdmf": RegisteredKind(XdmfReference, "validation.reference.grid.xdmf"),
 }

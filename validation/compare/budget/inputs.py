@@ -20,8 +20,8 @@ from solver.runs.batch import run_batch
 from solver.runs.result import CellHistory, cell_dataset
 from validation.compare.budget.spread import RunningSpread, relative_spread
 from validation.metrics.quantities import CYCLE_QUANTITIES, DERIVED_QUANTITIES
-from validation.runs.cache import Cache, Entry
-from validation.runs.cached import Remark, cached
+from validation.runs.cache import Cache
+from validation.runs.cached import Numbers, Remark, cached_numbers
 from validation.runs.keys import canonical, key_of
 from validation.runs.reduced_model import run_times
 from validation.sweep.design import Design, points
@@ -33,14 +33,6 @@ STEPS = 4.0  # steps of the case in one of a sample: a spread needs no more digi
 MOST_FAILED = 0.1  # share of the samples; above it there is no number
 STEP = 0.1  # of a standard deviation: half the interval of the central differences
 Values = dict[str, Floats]
-
-
-@dataclass(frozen=True)
-class InputUncertainty:
-    """Relative standard uncertainty by quantity, and what is to be said of it."""
-
-    relative: dict[str, float]
-    description: dict[str, Any]
 
 
 def input_uncertainty(
@@ -91,18 +83,16 @@ def input_uncertainty(
         "instants": instants,
         "quantities": wanted,
     }
-    found = cached(
+    found = cached_numbers(
         store,
         lambda: key_of("input uncertainty", canonical(parts)),
         lambda: _computed(_Runs(template, case, instants, wanted), stated, list(numbers.values())),
-        lambda each: Entry({}, {"relative": each.relative, "description": each.description}),
-        lambda entry: InputUncertainty(entry.facts["relative"], entry.facts["description"]),
         remark,
     )
     said = found.description["said"]
     if said:
         remark(f"{template.variant}: uncertainty: {said}")
-    return found.relative
+    return found.values
 
 
 @dataclass(frozen=True)
@@ -156,13 +146,13 @@ def _quantity(name: str, last: xr.Dataset) -> Floats:
     return np.asarray(last[reads(name)[0]].to_numpy() if measure is None else measure(last), dtype=float)
 
 
-def _computed(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> InputUncertainty:
+def _computed(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> Numbers:
     if stated.method == "local":
         return _local(runs, numbers)
     return _sampled(runs, stated, numbers)
 
 
-def _sampled(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> InputUncertainty:
+def _sampled(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber]) -> Numbers:
     """Spread of the results of a Latin hypercube; McKay et al. (1979), Technometrics 21, 239–245."""
     design = Design(kind="latin_hypercube", count=stated.samples, seed=stated.seed)
     values = points(design, [_parameter(each) for each in numbers])
@@ -183,7 +173,7 @@ def _parameter(number: UncertainNumber) -> Parameter:
     return Parameter(number.key, number.key.name, Display(number.key.kind.unit, 1.0), kind, number.numbers)
 
 
-def _local(runs: _Runs, numbers: Sequence[UncertainNumber]) -> InputUncertainty:
+def _local(runs: _Runs, numbers: Sequence[UncertainNumber]) -> Numbers:
     """Σ (∂f/∂p σ_p)² by central differences, about the result of the case itself."""
     base = np.array([each.key.value or 0.0 for each in numbers])
     steps = STEP * np.diag([each.standard_deviation for each in numbers])
@@ -204,5 +194,5 @@ def _local(runs: _Runs, numbers: Sequence[UncertainNumber]) -> InputUncertainty:
     return _told(relative_spread(mean, variance), len(values), 0, "")
 
 
-def _told(relative: dict[str, float], runs: int, failed: int, said: str) -> InputUncertainty:
-    return InputUncertainty(relative, {"runs": runs, "failed": failed, "said": said})
+def _told(relative: dict[str, float], runs: int, failed: int, said: str) -> Numbers:
+    return Numbers(relative, {"runs": runs, "failed": failed, "said": said})

@@ -14,6 +14,7 @@ from validation.mapping.rays import Rays
 from validation.reference.alignment import Alignment
 from validation.reference.direction import inflow_sign
 from validation.reference.mesh.model import MeshModel
+from validation.reference.mesh.units import check_velocity_units
 
 _VTK_TYPE = {HEXAHEDRON: 12, WEDGE: 13, TETRAHEDRON: 10, PYRAMID: 14}
 
@@ -48,6 +49,15 @@ RADIUS_TOLERANCE = 1e-2  # and the mean radius of its unloaded interface by this
 LENGTH_TOLERANCE = 1e-3  # the mesh's length may differ from the case's by this share
 
 
+def check_times(times: Floats) -> None:
+    """Refuse states whose times do not increase."""
+    for place in np.flatnonzero(np.diff(times) <= 0)[:1]:
+        raise UnusableReferenceError(
+            f"states {place + 1} and {place + 2} have times {times[place]:.9g} and "
+            f"{times[place + 1]:.9g} s; allowed: times that increase"
+        )
+
+
 def check_length(mesh: LumenMesh, case: Case) -> None:
     """Refuse a lumen of another length than the case's, or one that starts elsewhere."""
     first = float(mesh.coordinates[mesh.inlet, 0].min())
@@ -70,13 +80,13 @@ def check_radius(mesh: LumenMesh, case: Case) -> None:
         )
 
 
-def check_direction(inflow: Floats, alignment: Alignment, case: Case) -> None:
-    """Refuse a reference whose blood flows against the prescribed inflow.
+def check_inflow(inflow: Floats, area: Floats, alignment: Alignment, case: Case) -> None:
+    """Refuse a reference whose blood flows against the prescribed inflow, or is of other units.
 
     Parameters
     ----------
-    inflow : ndarray (n_states,)
-        Flow rate through the inlet at the instants of ``alignment``, m³/s.
+    inflow, area : ndarray (n_states,)
+        Flow rate through the inlet and its area at the instants of ``alignment``, m³/s and m².
     alignment : Alignment
     case : Case
     """
@@ -86,6 +96,7 @@ def check_direction(inflow: Floats, alignment: Alignment, case: Case) -> None:
             f"blood flows against the inflow of the case ({mean:.3g} m³/s on average at "
             "reference.origin): reference.axis and origin must follow the flow"
         )
+    check_velocity_units(inflow, area, alignment, case)
 
 
 def plane_checks(model: MeshModel, alignment: Alignment, case: Case, rays: Rays) -> xr.Dataset:

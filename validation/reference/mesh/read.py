@@ -19,12 +19,21 @@ from validation.mapping.state import MappedState, Mapper
 from validation.reference.alignment import Alignment, align
 from validation.reference.kind import HowToMake, Progress, Reference, ReferenceKind, nothing_to_make
 from validation.reference.mesh.calcified_extent import described, doubts, extent
-from validation.reference.mesh.checks import check_direction, check_length, check_radius, plane_checks
+from validation.reference.mesh.checks import (
+    check_inflow,
+    check_length,
+    check_radius,
+    check_times,
+    plane_checks,
+)
 from validation.reference.mesh.model import MeshModel, mesh_model
+from validation.reference.mesh.motion import WallMotion, check_spread
 from validation.reference.mesh.periodicity import cycle_change, periodicity_doubts
 from validation.reference.mesh.series import MeshSeries
+from validation.reference.mesh.units import check_length_unit, pressure_doubts
 
 S = TypeVar("S", bound=MeshReference)
+RIGID = "the reference's wall does not move: its radius is that of its mesh at all instants"
 
 
 @dataclass
@@ -86,6 +95,7 @@ def _naming(name: str) -> Iterator[None]:
 
 
 def _alignment(series: MeshSeries, stated: MeshReference, case: Case) -> Alignment:
+    check_times(series.times)
     return align(series.times, stated.time_offset, case.inlet.period, case.solver.cycles)
 
 
@@ -100,19 +110,26 @@ def _read(
     model = mesh_model(series, stated)
     if alignment is None:
         alignment = _alignment(series, stated, case)
+    check_length_unit(model.mesh, case, stated.length_unit)
     check_length(model.mesh, case)
-    check_radius(model.mesh, case)
+    if model.unloaded:
+        check_radius(model.mesh, case)
     account = series.account()
+    motion = WallMotion(model.mesh)
     kept = _Kept(np.ix_(np.array(case.compare.cells.i) - 1, np.array(case.compare.cells.j) - 1))
     mapper = Mapper(model.mesh, rays)
-    mapped = _mapped(model, mapper, alignment, progress, kept)
+    mapped = _mapped(model, mapper, alignment, progress, kept, motion)
     fields = derived_fields(mapped, rays, alignment.cycle_times)
     fields = fields.assign({RINGS: _rings(kept, rays)})
     change = cycle_change(series.times, alignment.states, case.inlet.period, model.read, mapper, fields)
     inflow, inlet_area = np.array(kept.inlet).T
-    check_direction(inflow, alignment, case)
+    check_inflow(inflow, inlet_area, alignment, case)
+    pressure = float(fields["section_pressure"][:, -1].mean())
+    unlike = pressure_doubts(pressure, float(inflow.mean()), case, stated.pressure_unit)
+    unlike += motion.doubts() if model.nodal_velocity else []
     checks = plane_checks(model, alignment, case, rays)
-    unlike = [] if model.calcified is None else doubts(case, model.mesh.coordinates, model.calcified)
+    unlike += [] if model.calcified is None else doubts(case, model.mesh.coordinates, model.calcified)
+    rigid = (RIGID,) if motion.still and not model.unloaded else ()
     return Reference(
         fields=fields,
         checks=checks.assign(inlet_flow_rate=("time", inflow), inlet_area=("time", inlet_area)),
@@ -123,7 +140,7 @@ def _read(
             **_facts(series, alignment, model),
             "cycle_change": change and change.amount,
         },
-        notes=(*model.notes, *account.notes),
+        notes=(*model.notes, *account.notes, *rigid),
         warnings=(*periodicity_doubts(change), *unlike, *account.warnings),
     )
 
@@ -148,10 +165,14 @@ def _mapped(
     alignment: Alignment,
     progress: Progress | None,
     kept: _Kept,
+    motion: WallMotion,
 ) -> Iterator[MappedState]:
     """Map state after state; keep what is not a field on all cells."""
     for done, state in enumerate(alignment.states.tolist(), start=1):
-        mapped = mapper.map_state(*model.read(state))
+        values = model.read(state)
+        check_spread(values, model.mesh, state)
+        motion.add(float(alignment.cycle_times[done - 1]), values)
+        mapped = mapper.map_state(*values)
         kept.inlet.append((mapped.inflow, mapped.inlet_area))
         kept.rings.append(np.stack([part[kept.cells] for part in mapped.rings], axis=-1))
         yield mapped

@@ -19,13 +19,16 @@ class SeriesMesh(NamedTuple):
     coordinates : ndarray (n_nodes, 3)
         Of the nodes in the unloaded state, in the solver's frame, m.
     lumen, wall : list of Block
-        Cells of blood and of wall by kind; both have the interface's nodes.
+        Cells of blood and of wall by kind; both have the interface's nodes. Without wall cells the lumen's
+        outer surface is the interface.
     calcified : list of Block or None
         Calcified cells of the wall, to be compared with the case's; None where nothing tells them.
     velocity_at, pressure_at : {"nodes", "cells"}
         Where a state has its velocity and pressure; cells are those of ``lumen``, in order.
     notes : tuple of str
         What a reader must know, as what was left out.
+    unloaded : bool
+        Whether ``coordinates`` are known to be of the unloaded state, so that its radius must be the case's.
     """
 
     coordinates: Floats
@@ -35,6 +38,7 @@ class SeriesMesh(NamedTuple):
     velocity_at: Where = "nodes"
     pressure_at: Where = "nodes"
     notes: tuple[str, ...] = ()
+    unloaded: bool = True
 
 
 class MeshState(NamedTuple):

@@ -1,0 +1,1 @@
+"""References of named arrays on a mesh, whatever library reads their files."""
