@@ -98,6 +98,7 @@ def test_the_study_s_statistic():
     assert value == pytest.approx(0.3 / 4)
 
 
+@pytest.mark.long
 def test_a_comparison_with_a_report(tmp_path):
     case = content(tmp_path)
     case["compare"]["bands"] = [
