@@ -87,11 +87,15 @@ def _figure(comparison: Comparison, variant: str, key: str) -> Figure:
 @declared("exponents", "Closest γ", instants("maps"))
 def section(comparison: Comparison) -> Blocks:
     """Return the closest profile exponents."""
-    opening = Paragraph(
-        f"The 2D model assumes v{SPACE}={SPACE}v₀{SPACE}(1{SPACE}−{SPACE}(r/R)^γ) along each ray. In 3D, γ "
-        "is that of the closest such profile; where its error is large, no γ describes the 3D profile."
+    records = comparison.provenance.variants
+    with_modes = [name for name, of in records.items() if of.rom.profile == "two_mode"]
+    profile = f"v{SPACE}={SPACE}v₀{SPACE}(1{SPACE}−{SPACE}(r/R)^γ)"
+    assumed = (
+        f"γ is the exponent of the profile {profile} that is closest along each ray"
+        if len(with_modes) == len(records)
+        else f"The 2D model assumes {profile} along each ray. In 3D, γ is that of the closest such profile"
     )
-    with_modes = [name for name, of in comparison.provenance.variants.items() if of.rom.profile == "two_mode"]
+    opening = Paragraph(f"{assumed}; where its error is large, no γ describes the 3D profile.")
     two_modes = Paragraph(
         f"In {listed(with_modes)} the 2D model has profiles of two modes, D (1 − (r/R)ⁿ) + B (r/R)² "
         "(1 − (r/R)⁴), and its γ is that of the closest profile with one, as in 3D."

@@ -1,5 +1,6 @@
 """How sure a bias is, and how far apart the changes by calcification are, as a reader sees them."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 from cases.results.metric_row import metric_row
@@ -48,6 +49,10 @@ def test_a_bias_stands_beside_its_interval():
         "—",
     ]
     assert further_figures(comparison(*rows), frozenset()) is None
+    assert "passes zero" not in table.caption
+    assert (
+        "passes zero" in pooled.table(comparison(*rows, replace(row("max_error", -148.4), t_s=0.1))).caption
+    )
 
 
 def test_a_bias_without_an_interval_says_so():

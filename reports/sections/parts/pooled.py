@@ -1,5 +1,7 @@
 """Figures over all cells and states: errors, and how far changes are apart, a line a quantity and variant."""
 
+from collections.abc import Iterable
+
 from cases.results.metric_row import MetricRow
 from reports.blocks import Column, Table, numbers
 from reports.result.load import Comparison
@@ -8,6 +10,7 @@ from reports.wording.words import baseline_words, place, quantity_words
 
 _STATISTICS = ("bias", "scatter", "rms_error", "max_error")
 _ABSOLUTE = "rms_difference"
+NEAR_ZERO = 10.0  # share of 3D by which nothing is off where 3D is not next to zero
 
 
 def table(comparison: Comparison) -> Table | None:
@@ -39,7 +42,7 @@ def table(comparison: Comparison) -> Table | None:
         "model is off by the same share everywhere; a scatter near it, that it is off differently from place "
         "to place. The 95 % interval of the bias comes from blocks of the cycle drawn anew (bootstrap): "
         "it tells how sure the bias is, not how large errors are. "
-        "Quantities whose figures agree share a line.",
+        "Quantities whose figures agree share a line." + _through_zero(found.values()),
         (
             Column("variant"),
             Column("quantity", "prose"),
@@ -48,6 +51,17 @@ def table(comparison: Comparison) -> Table | None:
         ),
         rows,
         rule_by=0,
+    )
+
+
+def _through_zero(rows: Iterable[dict[str, MetricRow]]) -> str:
+    """Say what relative errors are worth where 3D passes zero; "" where none is that large."""
+    largest = [row.error for by in rows if (row := by.get("max_error")) and row.error is not None]
+    if all(abs(error) < NEAR_ZERO for error in largest):
+        return ""
+    return (
+        " Where 3D passes zero a share of it has no bound, and says nothing of a quantity over the cycle: "
+        "RMS 2D − 3D does."
     )
 
 
