@@ -56,7 +56,7 @@ def periodic_outlet_flow(case: Case, progress: Progress | None = None) -> Floats
         held = [float(stop.kept["reservoir"]) for stop in (stops[0], stops[-1])]
         flow = 0.5 * model.grid.dphi * np.array([stop.columns.flow[-1].sum() for stop in stops])
         gap = (held[1] - held[0]) / leaked
-        change = max(_change(calm, times, stops), abs(gap) / _highest(stops))
+        change = max(_change(calm, times, stops), abs(gap) / (_highest(stops) or 1.0))
         if progress:
             progress(cycle, MOST_CYCLES)
         if change <= PERIODIC:

@@ -16,7 +16,8 @@ WATCHED = ("pressure", "section_flow_rate")
 def cycle_change(case: Case, fields: Mapping[Any, Any]) -> float | None:
     """Return the largest relative change of pressure and flow rate over the last cycle.
 
-    The largest difference between its two ends over the largest value at its start; 0 for a periodic run.
+    The largest difference between its two ends over the largest value at its start, or at its end if it
+    starts from rest; 0 for a periodic run.
 
     Parameters
     ----------
@@ -38,8 +39,13 @@ def cycle_change(case: Case, fields: Mapping[Any, Any]) -> float | None:
     changes = []
     for name in WATCHED:
         first, last = (np.asarray(fields[name][end]) for end in ends)
-        changes.append(float(np.max(np.abs(last - first)) / np.max(np.abs(first))))
+        changes.append(_relative(first, last))
     return max(changes)
+
+
+def _relative(first: Floats, last: Floats) -> float:
+    size = np.max(np.abs(first)) or np.max(np.abs(last)) or 1.0
+    return float(np.max(np.abs(last - first)) / size)
 
 
 def _state_at(times: Floats, instant: float, apart: float) -> int | None:

@@ -7,6 +7,7 @@ import solver.case.periodic_outlet as periodic
 from cases.reading.case_file import load_case_file
 from cases.sections.outlet import NonReflectingOutlet
 from solver.case.model import model_of
+from solver.case.periodicity import cycle_change
 from solver.case.run import walk
 from solver.errors import SolverError
 
@@ -48,6 +49,22 @@ def test_it_is_that_of_many_plain_cycles(case, compliance, most):
     stops = list(walk(stated, model_of(stated), np.insert(times, 0, 0.0)))[1:]
     plain = np.array([0.25 * np.pi * stop.columns.flow[-1].sum() for stop in stops])
     np.testing.assert_allclose(found, plain, atol=1e-3 * plain.max())
+
+
+def test_an_artery_without_flow_is_periodic(case):
+    still = case(
+        "1e-10", **{"mean: 15 cm/s": "mean: 0 cm/s", "[-3 cm/s]": "[0 cm/s]", "[5 cm/s]": "[0 cm/s]"}
+    )
+    still = still.model_copy(update={"outlet": still.outlet.model_copy(update={"venous_pressure": 0.0})})
+    np.testing.assert_array_equal(periodic.periodic_outlet_flow(still), 0.0)
+
+
+@pytest.mark.parametrize(("last", "expected"), [(0.0, 0.0), (-3.0, 1.0)])
+def test_a_cycle_that_starts_at_rest_has_a_finite_change(case, last, expected):
+    values = np.zeros((3, 2, 2))
+    values[2, 1] = last
+    fields = {"time": np.array([0.0, 0.8, 1.6]), "pressure": values, "section_flow_rate": values[..., 0]}
+    assert cycle_change(case("1e-10"), fields) == expected
 
 
 def test_limits_and_ramp_of_a_case_do_not_count(case):
