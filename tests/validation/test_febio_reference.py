@@ -284,6 +284,13 @@ def test_a_missing_plot_variable_is_named(read, missing):
     assert all(name in str(e.value) for name in VARIABLES)
 
 
+def test_a_mesh_with_a_coordinate_that_is_no_number(read):
+    tube = Tube(sectors=12, rings=4, stacks=10, layers=2)
+    tube.coordinates[7, 1] = np.nan
+    with pytest.raises(UnusableReferenceError, match=r"tube\.xplt: coordinates of the mesh: not finite"):
+        read(tube)
+
+
 def test_too_few_states(read):
     with pytest.raises(UnusableReferenceError, match="states in the last cycle: 2"):
         read(times=[0.1, 0.2])

@@ -58,6 +58,8 @@ def mesh_model(series: MeshSeries, stated: MeshReference) -> MeshModel:
     found = series.mesh()
     place = frame(stated.axis, stated.phi_zero, stated.origin)
     coordinates = place.points(found.coordinates)
+    if not np.all(np.isfinite(coordinates)):
+        raise UnusableReferenceError("coordinates of the mesh: not finite everywhere")
     of_velocity, of_pressure = _to_nodes(found, coordinates)
 
     def read(number: int) -> MeshState:
