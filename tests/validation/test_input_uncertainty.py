@@ -211,3 +211,13 @@ def test_a_spread_relative_to_nothing_is_none():
     mean = {"pressure": np.array([1.0, -2.0]), "flow": np.array([1.0, 0.0])}
     variance = {"pressure": np.array([0.01, 0.16]), "flow": np.array([0.01, 0.01])}
     assert relative_spread(mean, variance) == {"pressure": pytest.approx(np.sqrt((0.01 + 0.04) / 2))}
+
+
+def test_an_inflow_read_from_the_reference_is_that_of_the_samples(tmp_path):
+    path = steady_case(tmp_path, {"outlet.resistance": {"relative": "10 %"}}, method="local")
+    driven = load_case_file(path).variants["none"]
+    expected, _ = found(path, ("pressure",))
+    text = path.read_text(encoding="utf-8").replace("kind: flow", "kind: reference")
+    path.write_text("".join(line for line in text.splitlines(True) if "value: 5 ml/s" not in line))
+    relative = input_uncertainty(load_template(path, "none"), driven, INSTANTS, ("pressure",))
+    assert relative == expected

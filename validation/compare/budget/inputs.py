@@ -14,6 +14,7 @@ from cases.quantities import reads
 from cases.reading.template import Template, case_with
 from cases.reading.uncertain_numbers import UncertainNumber, uncertain_numbers
 from cases.sections.case import Case
+from cases.sections.inlet import ReferenceInlet
 from cases.sections.uncertainty import Uncertainty
 from solver.model.parameters import Model
 from solver.runs.batch import run_batch
@@ -123,9 +124,12 @@ class _Runs:
     def _case(self, numbers: Sequence[UncertainNumber], values: Sequence[float]) -> Case | None:
         stated = {each.key.path: each.key.stated(value) for each, value in zip(numbers, values, strict=True)}
         try:
-            return case_with(self.template, stated)
+            made = case_with(self.template, stated)
         except CaseFileError:
             return None
+        if isinstance(made.inlet, ReferenceInlet):  # what it took in is known of the case alone
+            return made.model_copy(update={"inlet": self.case.inlet})
+        return made
 
     def _kept(self, model: Model, cells: CellHistory) -> Values:
         last = cell_dataset(model, cells).sel(time=self.instants)
