@@ -356,10 +356,23 @@ def test_a_full_disk_is_one_message(whole, tmp_path, capsys, monkeypatch, writer
     assert capsys.readouterr().err == said
 
 
-def test_an_account_that_is_damaged_is_refused(whole, tmp_path):
+def test_samples_of_which_nothing_tells_the_study_are_refused_unless_fresh(whole, tmp_path):
+    _, _, folder = whole
+    shutil.copytree(folder, tmp_path / "out")
+    (tmp_path / "out/study.json").unlink()
+    other = GRID | {"calcification.youngs_modulus": ["2 MPa", "5 MPa"]}
+    study = small_study(tmp_path, parameters=other)
+    with pytest.raises(ValidationError, match=r"out: holds samples, but no study\.json .* --fresh"):
+        swept(study, tmp_path / "out")
+    found = swept(study, tmp_path / "out", fresh=True)
+    assert set(found["calcification.youngs_modulus"]) == {2e6, 5e6}
+
+
+@pytest.mark.parametrize("text", ["{", "[" * 100_000])
+def test_an_account_that_is_damaged_is_refused(whole, tmp_path, text):
     study, _, folder = whole
     shutil.copytree(folder, tmp_path / "out")
-    (tmp_path / "out/study.json").write_text("{", encoding="utf-8")
+    (tmp_path / "out/study.json").write_text(text, encoding="utf-8")
     with pytest.raises(ValidationError, match=r"study\.json: cannot be read: .* --fresh starts anew"):
         swept(study, tmp_path / "out")
 

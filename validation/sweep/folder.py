@@ -91,7 +91,7 @@ def begun(folder: Path) -> dict[str, Any] | None:
         return None
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise ValidationError(f"{path}: cannot be read: {error}; --fresh starts anew") from error
     if not isinstance(found, dict):
         raise ValidationError(f"{path}: is no account of a sweep; --fresh starts anew")

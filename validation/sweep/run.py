@@ -13,7 +13,17 @@ from validation.errors import ValidationError
 from validation.reference.generated import check_computed
 from validation.sweep.account import account_of, digest_of, tells_the_same, write_account, write_study
 from validation.sweep.design import samples_of
-from validation.sweep.folder import STUDY, Counts, begun, claimed, cleared, parts_present, schema_of
+from validation.sweep.folder import (
+    ACCOUNT,
+    SAMPLES,
+    STUDY,
+    Counts,
+    begun,
+    claimed,
+    cleared,
+    parts_present,
+    schema_of,
+)
 from validation.sweep.samples import samples_of_study
 from validation.sweep.sensitivity import sensitivity
 from validation.sweep.study import Study
@@ -130,6 +140,11 @@ def _run(
 
 def _refuse_another(folder: Path, digest: str) -> None:
     earlier = begun(folder)
+    if earlier is None and any((folder / SAMPLES).glob("part-*.parquet")):
+        raise ValidationError(
+            f"{folder}: holds samples, but no {ACCOUNT} that says of which study; "
+            "--fresh removes them and starts anew, --output DIR chooses another folder"
+        )
     if earlier is not None and earlier.get("digest") != digest:
         raise ValidationError(
             f"{folder}: holds a sweep of another study, or of another version of this program; "
