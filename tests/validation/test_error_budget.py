@@ -6,6 +6,7 @@ import netCDF4
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 from small_case import ROOT, bands, small_case, written
 from test_budget_discretization import fields
 
@@ -15,10 +16,12 @@ from validation.compare import command as compare
 from validation.compare.budget.discretization import Estimate
 from validation.compare.budget.parts import Budget, budgets_of
 from validation.compare.budget.sources import Sources
+from validation.errors import ValidationError
 from validation.metrics.rows import Models
 from validation.reference.alignment import align
+from validation.reference.kind import Reference
 from validation.reference.mesh import read as mesh_reference
-from validation.runs.matched_inflow import inlet_through
+from validation.runs.matched_inflow import inlet_through, with_inflow_of
 from validation.runs.reduced_model import ReducedModelRun
 
 JUDGED = ("section_flow_rate", "pressure", "radius")
@@ -50,6 +53,25 @@ def test_the_inflow_of_a_half_cycle_is_refused(case):
     times = np.linspace(0.0, 0.5 * case.inlet.period, 21)
     with pytest.raises(Exception, match="the inflow of the reference: its states cover 50"):
         inlet_through(case, align(times, 0.0, case.inlet.period, 1), np.ones(21))
+
+
+def test_a_reference_that_tells_too_little_inflow_is_named(case):
+    alignment = align(np.linspace(0.0, 0.5 * case.inlet.period, 21), 0.0, case.inlet.period, 1)
+    checks = xr.Dataset({"inlet_flow_rate": ("time", np.ones(21))})
+    reference = Reference(xr.Dataset(), checks, alignment, {}, ())
+    with pytest.raises(
+        ValidationError, match=r"none\.xplt: the inflow of the reference: its states cover 50"
+    ):
+        with_inflow_of(case, reference)
+
+
+def test_a_coarser_mesh_of_another_artery_is_said(tmp_path, quick, capsys):
+    content = small_case("none")
+    other = str(ROOT / "reference_data/febio_levels/local_16.xplt")
+    content["variants"]["none"]["reference"]["levels"] = [other]
+    assert compare.main([str(written(content, tmp_path)), "--output", str(tmp_path / "result")]) == 0
+    said = "none: reference.levels: local_16.xplt: the reference is calcified at x 5 to 10 mm"
+    assert said in capsys.readouterr().err
 
 
 def test_a_reference_scaled_in_one_quantity_is_an_error_of_the_model_there_alone():

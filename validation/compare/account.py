@@ -44,7 +44,8 @@ def warnings_of(runs: Mapping[str, VariantRun]) -> list[str]:
         alignment, times = run.reference.alignment, run.reference.alignment.cycle_times
         found += [f"{name}: {doubt}" for doubt in doubts_of(run.case)]
         found += [f"{name}: {note}" for note in run.reference.notes if "cut off" in note]
-        found += [f"{name}: {warning}" for warning in run.reference.warnings]
+        of_levels = () if run.sources is None else run.sources.warnings
+        found += [f"{name}: {warning}" for warning in (*run.reference.warnings, *of_levels)]
         if alignment.coverage < WHOLE:
             found.append(
                 f"{name}: the reference's states cover only {alignment.coverage:.1%} of the cycle, "

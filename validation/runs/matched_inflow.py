@@ -14,7 +14,7 @@ from cases.sections.inlet import FlowInlet, PressureInlet, ReferenceInlet
 from cases.values.waveform_file import Waveform
 from solver.case.model import inlet_signal
 from validation.errors import ValidationError
-from validation.reference.alignment import WHOLE, Alignment
+from validation.reference.alignment import SLACK, WHOLE, Alignment
 from validation.reference.kind import Reference
 
 SAMPLES = 2000  # points of the waveform in a cycle
@@ -41,7 +41,12 @@ def with_inflow_of(case: Case, reference: Reference) -> Case:
             "a mesh"
         )
     inflow = reference.checks["inlet_flow_rate"].to_numpy()
-    return case.model_copy(update={"inlet": inlet_through(case, reference.alignment, inflow)})
+    try:
+        inlet = inlet_through(case, reference.alignment, inflow)
+    except ValidationError as error:
+        name = "" if case.reference is None else f"{case.reference.files[0]}: "
+        raise ValidationError(f"{name}{error}") from error
+    return case.model_copy(update={"inlet": inlet})
 
 
 def inlet_through(case: Case, alignment: Alignment, inflow: Floats) -> FlowInlet:
@@ -60,7 +65,7 @@ def inlet_through(case: Case, alignment: Alignment, inflow: Floats) -> FlowInlet
     ValidationError
         If the instants cover too little of the cycle.
     """
-    if alignment.coverage < WHOLE:
+    if alignment.coverage < WHOLE - SLACK:
         raise ValidationError(
             f"the inflow of the reference: its states cover {alignment.coverage:.1%} of the cycle; allowed: "
             f"{WHOLE:.0%} or more"

@@ -28,11 +28,14 @@ class Level:
         Of the lumen.
     rom, reference : xarray.Dataset
         Fields; ``time`` is counted from the cycle's start.
+    warnings : tuple of str
+        What casts doubt on the reference.
     """
 
     elements: int
     rom: xr.Dataset
     reference: xr.Dataset
+    warnings: tuple[str, ...] = ()
 
 
 def mesh_estimates(levels: list[Level], period: float) -> dict[str, Estimate]:

@@ -53,12 +53,15 @@ class Sources:
         By quantity, what the reference's mesh leaves open; None with one mesh only.
     notes : tuple of str
         How they were found.
+    warnings : tuple of str
+        What casts doubt on the reference's coarser meshes.
     """
 
     matched: ReducedModelRun | None
     numerical: Mapping[str, Numerical]
     mesh: Mapping[str, Estimate] | None
     notes: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
 
     def without_fields(self) -> "Sources":
         """Return what describes them."""
@@ -118,11 +121,11 @@ def sources_of(
         return Sources(None, numerical, None, tuple(notes))
     driven = with_inflow_of(case, reference)
     matched = cached_rom(store, driven, variant.alignment, variant.points, progress, remark)
-    mesh = None
+    mesh, warnings = None, ()
     if coarser:
-        mesh, told = _mesh(variant, coarser, matched, reference)
+        mesh, told, warnings = _mesh(variant, coarser, matched, reference)
         notes.append(f"{name}: {told}")
-    return Sources(matched, numerical, mesh, tuple(notes))
+    return Sources(matched, numerical, mesh, tuple(notes), warnings)
 
 
 def _numerical(variant: _Variant, rom: ReducedModelRun) -> tuple[Mapping[str, Numerical], list[str]]:
@@ -147,8 +150,8 @@ def _mesh(
     coarser: tuple[ReferenceSection, ...],
     matched: ReducedModelRun,
     reference: Reference,
-) -> tuple[Mapping[str, Estimate], str]:
-    """What the reference's mesh leaves open, and in words how that was found."""
+) -> tuple[Mapping[str, Estimate], str, tuple[str, ...]]:
+    """What the reference's mesh leaves open, in words how that was found, and what casts doubt on it."""
     case, alignment, points = variant.case, variant.alignment, variant.points
     cases = [case.model_copy(update={"reference": section}) for section in coarser]
 
@@ -167,11 +170,12 @@ def _mesh(
             )
         estimates = mesh_estimates(levels, case.inlet.period)
         values = {quantity: asdict(estimate) for quantity, estimate in estimates.items()}
-        return Numbers({"estimates": values, "sizes": sizes})
+        said = [warning for level in levels for warning in level.warnings]
+        return Numbers({"estimates": values, "sizes": sizes, "warnings": said})
 
     found = cached_numbers(variant.store, key, compute, variant.remark).values
     mesh = {quantity: Estimate(**stated) for quantity, stated in found["estimates"].items()}
-    return mesh, refinement_told(found["sizes"], mesh)
+    return mesh, refinement_told(found["sizes"], mesh), tuple(found["warnings"])
 
 
 def _level(variant: _Variant, case: Case) -> Level:
@@ -182,7 +186,9 @@ def _level(variant: _Variant, case: Case) -> Level:
         variant.store, kind, case, variant.points, variant.progress, alignment, variant.remark
     )
     rom = last_cycle(with_inflow_of(case, reference), alignment, variant.progress)
-    return Level(_elements(reference), rom, reference.fields)
+    named = case.reference and case.reference.files[0].name
+    said = tuple(f"reference.levels: {named}: {warning}" for warning in reference.warnings)
+    return Level(_elements(reference), rom, reference.fields, said)
 
 
 def _elements(reference: Reference) -> int:
