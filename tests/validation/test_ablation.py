@@ -75,7 +75,7 @@ def test_a_model_that_fails_is_a_row(case_of, monkeypatch):
     def fails(*_):
         raise ModelError("the membrane buckles")
 
-    monkeypatch.setattr(ablation, "run_reduced_model", fails)
+    monkeypatch.setattr("validation.ablation.study.run_reduced_model", fails)
     reference = type("Reference", (), {"alignment": None})()
     row = ablation_row("local", "membrane wall", case_of(), reference, None)
     assert (row.failure, row.radius_rms) == ("the membrane buckles", None)

@@ -191,7 +191,7 @@ class TestKeys:
 
     def test_code_matters(self, tmp_path, made, monkeypatch):
         before = self.keys(made(), tmp_path)
-        monkeypatch.setattr(cached_runs, "code_digest", lambda kind: "other code")
+        monkeypatch.setattr("validation.runs.keys.code_digest", lambda kind: "other code")
         assert not set(before) & set(self.keys(made(), tmp_path))
 
     def test_floats_count_with_all_their_digits(self):
