@@ -113,7 +113,9 @@ def section(comparison: Comparison) -> Blocks:
         blocks.append(
             pairs(
                 "wall-times",
-                "Wall-clock times of this run; what comes from the cache takes as long as reading it.",
+                "Wall-clock times of this run; what comes from the cache takes as long as reading it. "
+                "Steps of several variants run at once, so their sum is more than the run took; the first "
+                "run of the reduced model compiles its kernels.",
                 ("step", "seconds"),
                 p.wall_times_s,
             )

@@ -236,7 +236,9 @@ def section(comparison: Comparison) -> Blocks:
         blocks.append(Paragraph(sentence))
     if comparison.metrics.bands():
         blocks += [Bullets(by_variant(comparison)), _band_table(comparison)]
-    blocks += [Paragraph("What this comparison does not tell:"), Bullets(unknowns(comparison))]
+    unknown = unknowns(comparison)
+    if unknown:
+        blocks += [Paragraph("What this comparison does not tell:"), Bullets(unknown)]
     blocks += [table for table in (trust.table(comparison), pooled.table(comparison)) if table]
     blocks.append(
         Interactive(

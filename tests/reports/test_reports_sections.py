@@ -13,7 +13,7 @@ import synthetic_comparison as synthetic
 from reports.blocks import Paragraph
 from reports.build import write_reports
 from reports.result.load import Comparison, load
-from reports.sections import cycle
+from reports.sections import cycle, verdict
 from reports.sections.content import report
 from reports.sections.declaration import Blocks, declared, result_file
 from reports.sections.order import SECTIONS
@@ -63,3 +63,13 @@ def test_a_section_without_what_it_needs_is_left_out(
     titles = [shown.title for shown in report(load(tmp_path)).sections]
     assert TITLE not in titles
     assert titles[added - 1] == cycle.section.title
+
+
+@pytest.mark.parametrize("unknown", [(), ("That nothing is known.",)])
+def test_nothing_is_announced_where_nothing_is_unknown(
+    tmp_path: Path, small: synthetic.Setup, monkeypatch: pytest.MonkeyPatch, unknown: tuple[str, ...]
+) -> None:
+    synthetic.write(tmp_path, small)
+    monkeypatch.setattr(verdict, "unknowns", lambda comparison: unknown)
+    blocks = verdict.section.blocks(load(tmp_path))
+    assert (Paragraph("What this comparison does not tell:") in blocks) == bool(unknown)

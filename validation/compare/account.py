@@ -33,7 +33,10 @@ def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
     for run in runs.values():
         notes += [] if run.sources is None else run.sources.notes
     stated = ", ".join(f"{value:g}" for value in sorted({run.case.blood.viscosity for run in runs.values()}))
-    notes.append(f"viscosity of the reduced model: {stated} Pa s; the reference does not state its own")
+    notes.append(
+        f"viscosity of the reduced model: {stated} Pa s; that of the reference, its density and its wall's "
+        "moduli are not compared with the case"
+    )
     return list(dict.fromkeys(notes))
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from cases.results.metric_row import MetricRow
 from cases.statistics import BUDGET_PARTS, statistic_of
 from reports.result.load import Comparison
-from reports.wording.numbers import share
+from reports.wording.numbers import listed, share
 
 
 @dataclass(frozen=True)
@@ -49,12 +49,18 @@ def sentence(found: Budget) -> str:
         text = "what the model answers for is not known"
     elif error <= uncertainty:
         text = (
-            "no model error can be told from what the inputs and meshes leave open "
+            f"no model error can be told from the uncertainty of {_counted(found)} "
             f"(error {share(error)}, uncertainty {share(uncertainty)})"
         )
     else:
         text = f"model error between {share(found['model_low'])} and {share(found['model_high'])}"
     return text if found["mesh"] is not None else f"{text}; the error of the 3D mesh is not known"
+
+
+def _counted(found: Budget) -> str:
+    """What the uncertainty counts; inputs that both models share are no part of it."""
+    words = {"mesh": "the 3D mesh", "grid": "the 2D grid and step", "inputs": "the inputs"}
+    return listed(text for part, text in words.items() if found[part] is not None)
 
 
 def of_band(comparison: Comparison, row: MetricRow) -> str:

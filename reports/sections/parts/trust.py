@@ -109,8 +109,9 @@ def table(comparison: Comparison) -> Table | None:
         return None
     return Table(
         "trust",
-        "How far the 3D side can be trusted: the largest figure of the cycle. A 2D error smaller than these "
-        f"says nothing about the 2D model. {ABSENT}: not measured.",
+        "How far the 3D side can be trusted: the largest figure of the cycle. A 2D error of the flow rate "
+        "below the misreading or the mass defect of 3D says nothing about the 2D model. "
+        f"{ABSENT}: not measured.",
         (
             Column("check", "prose"),
             *(Column(name, "number") for name in comparison.variants),
