@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from cases.errors import QuantityError, RefusedValueError
 from cases.sections.base import Section
-from cases.values.kinds import Context, Switch, ValueKind, counted, one_of, refused, whole_number
+from cases.values.kinds import Context, Switch, ValueKind, one_of, refused, whole_number
 from cases.values.units import parse_ratio
 from cases.values.wording import choices, shown, unknown_key
 
@@ -118,7 +118,9 @@ class Uncertainty(Section):
     """
 
     method: Annotated[Method, one_of(Method)] = "latin_hypercube"
-    samples: Annotated[int, counted(MOST_SAMPLES)] = 64
+    samples: Annotated[
+        int, whole_number(f"a whole number from 2 to {MOST_SAMPLES}", lambda n: 2 <= n <= MOST_SAMPLES)
+    ] = 64
     seed: Annotated[
         int, whole_number(f"a whole number from 0 to {MOST_SEED}", lambda n: 0 <= n <= MOST_SEED)
     ] = 0

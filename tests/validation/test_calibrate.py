@@ -255,7 +255,9 @@ def test_a_case_that_cannot_be_written_is_refused_at_once(
         own["inlet"]["waveform"] = "inlet.csv"
         written(own, deep)
         path.write_text(path.read_text().replace(str(tmp_path / "small.yaml"), str(deep / "small.yaml")))
-    monkeypatch.setattr("validation.calibrate.calibration.calibrated", lambda *_: pytest.fail("it was computed"))
+    monkeypatch.setattr(
+        "validation.calibrate.calibration.calibrated", lambda *_: pytest.fail("it was computed")
+    )
     assert calibrate.main([str(path), "--output", str(tmp_path / "out"), "--case", str(target)]) == 2
     message = capsys.readouterr().err
     assert said in message
@@ -315,7 +317,9 @@ def test_no_file_that_is_there_is_replaced(
     (tmp_path / "notes.yaml").write_text("mine: true\n")
     (tmp_path / "taken/calibration.yaml").write_text("mine: true\n")
     before = {each: each.read_bytes() for each in tmp_path.rglob("*") if each.is_file()}
-    monkeypatch.setattr("validation.calibrate.calibration.calibrated", lambda *_: pytest.fail("it was computed"))
+    monkeypatch.setattr(
+        "validation.calibrate.calibration.calibrated", lambda *_: pytest.fail("it was computed")
+    )
     chosen = {"--output": str(tmp_path / "out"), option: str(tmp_path / place)}
     assert calibrate.main([str(path), *(word for pair in chosen.items() for word in pair)]) == 2
     assert said in capsys.readouterr().err

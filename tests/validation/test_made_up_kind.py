@@ -110,6 +110,7 @@ def test_checks_and_messages_are_those_of_every_kind(tmp_path):
 
 def test_it_left_with_its_process(tmp_path):
     with pytest.raises(
-        CaseFileError, match=r"reference\.kind: tube; did you mean tables\? allowed: febio, series, tables, vtk, xdmf"
+        CaseFileError,
+        match=r"reference\.kind: tube; did you mean tables\? allowed: febio, series, tables, vtk, xdmf",
     ):
         load_case_file(tube_case(tmp_path))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from cases.results.metric_row import MetricRow
-from cases.statistics import BUDGET_PARTS, statistic_of
+from cases.statistics import BUDGET_PARTS
 from reports.result.load import Comparison
 from reports.wording.numbers import listed, share
 
@@ -52,6 +52,8 @@ def sentence(found: Budget) -> str:
             f"no model error can be told from the uncertainty of {_counted(found)} "
             f"(error {share(error)}, uncertainty {share(uncertainty)})"
         )
+    elif found["mesh"] is None:
+        text = f"error {share(error)}, beyond the uncertainty of {_counted(found)}"
     else:
         text = f"model error between {share(found['model_low'])} and {share(found['model_high'])}"
     return text if found["mesh"] is not None else f"{text}; the error of the 3D mesh is not known"
@@ -66,14 +68,17 @@ def _counted(found: Budget) -> str:
 def of_band(comparison: Comparison, row: MetricRow) -> str:
     """Say behind a band whose error it is; "" where the comparison holds no budget of its quantity.
 
-    Budgets are of relative errors: of a difference over the size of 3D only the run with its inflow tells.
+    Budgets are of root mean squares of relative errors: of a difference over the size of 3D only the run
+    with its inflow tells.
     """
     if row.statistic.startswith("rms_over_"):
         return _with_inflow_of_3d(comparison, row)
     found = budget(comparison, row.variant, row.quantity)
     if found is None:
         return ""
-    half = 0.5 * row.band if row.band is not None and statistic_of(row.statistic).relative else None
+    if row.statistic != "rms_error":
+        return f"of its RMS error: {sentence(found)}"
+    half = None if row.band is None else 0.5 * row.band
     large = [
         f"{words} alone ({share(found[part])}) takes more than half of the limit"
         for part, words in (("inflow", "the inflow of the 3D mesh"), ("mesh", "the 3D mesh"))

@@ -121,7 +121,8 @@ def sources_of(
         return Sources(None, numerical, None, tuple(notes))
     driven = with_inflow_of(case, reference)
     matched = cached_rom(store, driven, variant.alignment, variant.points, progress, remark)
-    mesh, warnings = None, ()
+    mesh: Mapping[str, Estimate] | None = None
+    warnings: tuple[str, ...] = ()
     if coarser:
         mesh, told, warnings = _mesh(variant, coarser, matched, reference)
         notes.append(f"{name}: {told}")
