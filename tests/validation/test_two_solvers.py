@@ -132,6 +132,7 @@ def test_inspect_tells_the_axis_units_and_parts(capsys):
         assert f"  {line}" in said
     assert "  displacement: Displacement\n  positions: reference\n" in said
     assert "  lumen: {array: Domain_ID, values: [1]}\n  wall: {array: Domain_ID, values: [2, 4]}\n" in said
+    assert "  time_step: to be stated # not in the files" in said  # no time, so that none is taken by mistake
 
 
 def test_what_inspect_prints_can_be_pasted(tmp_path, capsys):

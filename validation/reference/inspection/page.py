@@ -92,7 +92,11 @@ def _files(contents: Contents) -> list[str]:
     listed = contents.stated if isinstance(contents.stated, str) else ", ".join(contents.stated)
     files = f'"{listed}"' if isinstance(contents.stated, str) else f"[{listed}]"
     untold = contents.times is None
-    rule = ["time_step: 1 ms # not in the files: time between numbers that differ by one"] if untold else []
+    rule = (
+        ["time_step: to be stated # not in the files: time between numbers that differ by one"]
+        if untold
+        else []
+    )
     return [f"kind: {contents.kind}", f"result_files: {files}", *rule, "time_offset: 0 s # start of a cycle"]
 
 
