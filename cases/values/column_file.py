@@ -8,6 +8,7 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.errors import ColumnFileError, QuantityError, UnreadableFileError
+from cases.values.common_units import UNITS
 from cases.values.input_files import read_file
 from cases.values.ranges import CYCLE_TIMES, FLOW_RATES, PRESSURES, SIZES, VELOCITIES, Range
 from cases.values.units import parse_number
@@ -15,7 +16,7 @@ from cases.values.wording import but_allowed, choices, nearest, shown
 
 LARGEST_FILE = 10_000_000
 SEPARATORS = {"\t": "tabs", ";": "semicolons", "|": "bars", " ": "blanks"}
-MMHG = Decimal("133.322387415")
+MMHG, _ = UNITS["mmHg"]
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from scipy.interpolate import CubicSpline
 from cases.arrays import Floats
 from cases.sections.case import Case
 from cases.sections.references.series import SeriesReference
+from cases.values.column_file import MMHG
 from cases.values.wording import choices
 from validation.errors import UnusableReferenceError
 from validation.mapping.derived import as_dataset
@@ -27,7 +28,7 @@ TIMES = {"t_s": 1.0, "t_ms": 1e-3}
 COLUMNS = {  # of the file: the field that it holds, and its unit in SI
     "pressure_Pa": ("section_pressure", 1.0),
     "pressure_kPa": ("section_pressure", 1e3),
-    "pressure_mmHg": ("section_pressure", 133.322387415),
+    "pressure_mmHg": ("section_pressure", float(MMHG)),
     "flow_rate_m3_s": ("section_flow_rate", 1.0),
     "flow_rate_cm3_s": ("section_flow_rate", 1e-6),
     "flow_rate_mL_s": ("section_flow_rate", 1e-6),
@@ -48,7 +49,7 @@ def align_series(case: Case) -> Alignment:
         If the file has no increasing times, or they do not cover one cycle.
     """
     stated, period = _stated(case), case.inlet.period
-    times = _times(stated)
+    times = _times(stated, _table(stated))
     if not WHOLE * period <= np.ptp(times) <= (1 + SLACK) * period:
         raise UnusableReferenceError(
             f"{stated.file}: times from {times[0]:g} s to {times[-1]:g} s; "
@@ -84,9 +85,10 @@ def read_series(
         raise UnusableReferenceError(
             f"{stated.file}: columns {', '.join(map(str, table))}; allowed: one or more of {choices(COLUMNS)}"
         )
+    times, wanted = _times(stated, table), alignment.cycle_times + stated.time_offset
     for name in known:
         field, unit = COLUMNS[name]
-        values = _at(alignment.cycle_times + stated.time_offset, case, unit * _numbers(stated, table, name))
+        values = _at(wanted, times, unit * _numbers(stated, table, name), case.inlet.period)
         if field == "radius_change":  # some are stated over a least value of earlier cycles
             values = values - values.min()
         fields[field][:, section] = values[:, None] if fields[field].ndim > 2 else values
@@ -125,8 +127,7 @@ def _numbers(stated: SeriesReference, table: pd.DataFrame, column: str) -> Float
     return values
 
 
-def _times(stated: SeriesReference) -> Floats:
-    table = _table(stated)
+def _times(stated: SeriesReference, table: pd.DataFrame) -> Floats:
     name = next((name for name in TIMES if name in table), None)
     if name is None:
         have = ", ".join(map(str, table))
@@ -139,10 +140,8 @@ def _times(stated: SeriesReference) -> Floats:
     return np.asarray(times)
 
 
-def _at(times: Floats, case: Case, values: Floats) -> Floats:
-    """Values of the series, repeated with the period, at times of its own clock, by a cubic spline."""
-    stated, period = _stated(case), case.inlet.period
-    known = _times(stated)
+def _at(times: Floats, known: Floats, values: Floats, period: float) -> Floats:
+    """Values at the ``known`` times of the series, repeated with the period, at others by a cubic spline."""
     if np.ptp(known) > (1 - SLACK) * period:  # the last instant is the first of the next cycle
         known, values = known[:-1], values[:-1]
     spline = CubicSpline(
