@@ -10,7 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "febio_io"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "febio_io"))  # its writers of made-up files
 
 from log_samples import sample_log
 from test_feb_structure import MODEL, OLD

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "febio_io"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "febio_io"))  # its writers of made-up files
 
 from xplt_writer import DomainOf, Item, MeshOf, Writer
 

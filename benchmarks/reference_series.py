@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "validation"))  # its made-up tubes
 
 from small_case import RUNS, small_case, written
 from tube_grids import cells_of, grid_of

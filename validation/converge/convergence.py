@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 RATIO = 2.0
-FORMAL_ORDER = 2.0  # of the semi-implicit scheme: no higher order is relied on
+FORMAL_ORDER = 2.0  # of the semi-implicit scheme, and of trilinear elements: no higher order is relied on
 LEAST_ORDER = 0.5  # and no lower one is believed
 SAFETY = 1.25  # with three grids
 ROUND_OFF = 1e-12  # relative change that is none

@@ -10,12 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-FORMAL_ORDER = 2.0  # of trilinear elements, and of the reduced model's schemes where all is smooth
+from validation.converge.convergence import FORMAL_ORDER, LEAST_ORDER, ROUND_OFF, SAFETY
+
 FIRST_ORDER = 1.0  # of the reduced model where a wall jumps
-LEAST_ORDER = 0.5  # no lower one is believed
 SLACK = 0.1  # share of the formal order by which the observed one may differ from it
-SURE, UNSURE = 1.25, 3.0  # factors of safety
-ROUND_OFF = 1e-12  # relative change that is none
+SURE, UNSURE = SAFETY, 3.0  # factors of safety
 _SEARCHED = (1e-3, 20.0)  # orders
 
 

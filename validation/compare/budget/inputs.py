@@ -168,7 +168,7 @@ def _sampled(runs: _Runs, stated: Uncertainty, numbers: Sequence[UncertainNumber
             spread.add(result)
     said = f"{failed} of {stated.samples} samples failed" if failed else ""
     if spread.count < 2 or failed > MOST_FAILED * stated.samples:
-        return _told({}, stated.samples, failed, f"{said or 'a single sample'}: no number")
+        return _told({}, stated.samples, failed, f"{said}: no number")
     return _told(relative_spread(spread.mean, spread.variance), stated.samples, failed, said)
 
 
