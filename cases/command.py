@@ -55,13 +55,15 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def print_summary(file: CaseFile) -> None:
-    """Print one line for each variant of a file, and on stderr what is seldom meant."""
+    """Print one line for each variant and model of a file, and on stderr what is seldom meant."""
     from cases.sections.doubts import doubts_of
 
-    for name, case in file.variants.items():
-        print(f"{file.path}: {name}: {summary(case)}")
-        for doubt in doubts_of(case):
-            print(f"warning: {file.path}: {name}: {doubt}", file=sys.stderr)
+    for model, variants in file.models.items():
+        for variant, case in variants.items():
+            name = variant if len(file.models) == 1 else f"{variant}, model {model}"
+            print(f"{file.path}: {name}: {summary(case)}")
+            for doubt in doubts_of(case):
+                print(f"warning: {file.path}: {name}: {doubt}", file=sys.stderr)
 
 
 def summary(case: Case) -> str:

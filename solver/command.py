@@ -25,6 +25,7 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Run the 2D reduced-order model.")
     parser.add_argument("case", type=Path, help="case file (YAML)")
     parser.add_argument("--variant", help="variant of the case file (needed where it has several)")
+    parser.add_argument("--model", help="one of the case file's models (default: the first)")
     parser.add_argument("--output", type=Path, required=True, help="result file (NetCDF), e.g. run.nc")
     parser.add_argument("--resume", action="store_true", help="go on with an interrupted run")
     return parser.parse_args(argv)
@@ -69,10 +70,11 @@ def _run(options: argparse.Namespace) -> int:
     file = load_case_file(options.case)
     variant = chosen_variant(file, options.variant)
     stated = {"case": file.name, "title": file.title, "variant": variant, "case_yaml": file.text}
-    case = file.variants[variant]
+    case = file.model(options.model)[variant]
     results = () if case.reference is None else case.reference.files
-    identity = run_identity(file.text, variant, [path for path in case.input_files if path not in results])
-    with progress_bar(f"{file.name} {variant}") as progress:
+    chosen = variant if options.model is None else f"{variant}, model {options.model}"
+    identity = run_identity(file.text, chosen, [path for path in case.input_files if path not in results])
+    with progress_bar(f"{file.name} {chosen}") as progress:
         done = run_to_file(case, options.output, identity, stated, options.resume, progress)
     warnings = (
         *doubts_of(case),

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from pydantic import ValidationError
 
-from cases.errors import CaseFileError, Problem
+from cases.errors import CaseError, CaseFileError, Problem
 from cases.reading.file_kinds import require_kind
 from cases.reading.problems import problems_of
 from cases.reading.uncertain_numbers import uncertainty_problems
@@ -19,7 +19,8 @@ from cases.sections.case import Case
 from cases.values.kinds import NAME_CHARACTERS, NAME_PATTERN, Context, Name, Words
 from cases.values.wording import choices, shown, unknown_key
 
-ONLY_VARIANT = "base"
+ONLY_VARIANT, ONLY_MODEL = "base", "rom"
+REFERENCE = "reference"  # the other model of every comparison
 S = TypeVar("S", bound=Section)
 
 
@@ -36,15 +37,35 @@ class CaseFile:
     name, title : str
         Its name (up to 64 letters, digits, - and _) and its title; the title is the name where none is
         stated.
-    variants : dict of str to Case
-        The cases by name, in the file's order; one named "base" where the file states no variants.
+    models : dict of str to dict of str to Case
+        The cases by model and variant, in the file's order; one model named "rom" where the file states none,
+        one variant named "base" where it states none.
     """
 
     path: Path
     text: str
     name: str
     title: str
-    variants: dict[str, Case]
+    models: dict[str, dict[str, Case]]
+
+    @property
+    def variants(self) -> dict[str, Case]:
+        """The cases of the first model."""
+        return next(iter(self.models.values()))
+
+    def model(self, name: str | None) -> dict[str, Case]:
+        """Return the cases of a model, without a name those of the first.
+
+        Raises
+        ------
+        CaseError
+            The file has no such model.
+        """
+        if name is None:
+            return self.variants
+        if name not in self.models:
+            raise CaseError(f"{self.path}: has no model {name!r}; allowed: {', '.join(self.models)}")
+        return self.models[name]
 
 
 class _Heading(Section):
@@ -55,7 +76,8 @@ class _Heading(Section):
 
 
 CASE_KEYS = tuple(key for key in Case.model_fields if key != "title")
-FILE_KEYS = ("name", "title", *CASE_KEYS, "variants")
+OF_A_MODEL = ("wall", "solver", "uncertainty")  # keys that models may state otherwise
+FILE_KEYS = ("name", "title", *CASE_KEYS, "models", "variants")
 
 
 def load_case_file(path: str | Path, results_exist: bool = True) -> CaseFile:
@@ -87,35 +109,40 @@ def load_case_file(path: str | Path, results_exist: bool = True) -> CaseFile:
     require_kind(root, path, "case")
     problems = unknown_keys(root, FILE_KEYS)
     heading = check_section(_Heading, part_of(root, ("name", "title")), None, problems)
-    overrides = overrides_of(root, problems)
-    cases = _cases(root, overrides, Context(path.resolve().parent, tuple(overrides), results_exist), problems)
-    problems += _tables_apart(cases, overrides)
-    merged = {name: merge_variant(part_of(root, CASE_KEYS), overrides[name]) for name in cases}
-    problems += uncertainty_problems(cases, merged)
+    variants, models = overrides_of(root, problems), models_of(root, problems)
+    context = Context(path.resolve().parent, tuple(variants), results_exist)
+    cases = {
+        model: _cases(root, merged(root, variants, override), context, problems)
+        for model, override in models.items()
+    }
+    problems += _tables_apart(next(iter(cases.values()), {}), variants)
     if problems or heading is None:
         raise CaseFileError.of_problems(path, problems)
     return CaseFile(path, text, heading.name, heading.title or heading.name, cases)
 
 
-def _cases(
-    root: Node, overrides: dict[str, Node], context: Context, problems: list[Problem]
-) -> dict[str, Case]:
-    """Return the checked cases by variant; add what is wrong to the problems."""
+def merged(root: Node, variants: dict[str, Node], model: Node) -> dict[str, Node]:
+    """Return what is stated of each variant of a model: the base, the variant's keys, then the model's."""
     base = part_of(root, CASE_KEYS)
+    return {name: merge_variant(merge_variant(base, stated), model) for name, stated in variants.items()}
+
+
+def _cases(root: Node, stated: dict[str, Node], context: Context, problems: list[Problem]) -> dict[str, Case]:
+    """Return the checked cases of one model by variant; add what is wrong to the problems."""
     cases = {}
     found: dict[Problem, list[str]] = {}
-    for name, override in overrides.items():
-        merged = merge_variant(base, override)
+    for name, node in stated.items():
         title = Node(name, root.line, "title") if "variants" in root.section else _title(root)
         wrong: list[Problem] = []
         case = check_section(
-            Case, Node({"title": title, **merged.section}, root.line, root.key), context, wrong
+            Case, Node({"title": title, **node.section}, root.line, root.key), context, wrong
         )
         if case is not None:
             cases[name] = case
         for problem in wrong:
             found.setdefault(problem, []).append(name)
-    problems += [_of_variants(problem, names, len(overrides)) for problem, names in found.items()]
+    problems += [_of_variants(problem, names, len(stated)) for problem, names in found.items()]
+    problems += uncertainty_problems(cases, stated)
     return cases
 
 
@@ -174,21 +201,42 @@ def unknown_keys(root: Node, known: Collection[str]) -> list[Problem]:
 
 def overrides_of(root: Node, problems: list[Problem]) -> dict[str, Node]:
     """Return the overrides by variant; one that changes nothing where the file states no variants."""
-    if "variants" not in root.section:
-        return {ONLY_VARIANT: Node({}, root.line, root.key)}
-    variants = root.section["variants"]
-    if not isinstance(variants.value, dict) or not variants.value:
-        message = f"{shown(variants.plain())}; allowed: a section for each variant, under its name"
-        problems.append(Problem(variants.line, variants.key, message))
+    return _overrides(root, "variants", ONLY_VARIANT, tuple(Case.model_fields), problems)
+
+
+def models_of(root: Node, problems: list[Problem]) -> dict[str, Node]:
+    """Return the overrides by reduced model; one that changes nothing where the file states no models."""
+    models = _overrides(root, "models", ONLY_MODEL, OF_A_MODEL, problems)
+    if REFERENCE in models:
+        message = f"model name {shown(REFERENCE)}, which is the 3D reference; allowed: another name"
+        problems.append(Problem(models[REFERENCE].line, "models", message))
+    for override in models.values():
+        for key, node in override.section.items():
+            if key not in OF_A_MODEL:
+                problems.append(Problem(node.line, node.key, unknown_key(key, OF_A_MODEL)))
+    return models
+
+
+def _overrides(
+    root: Node, part: str, only: str, keys: tuple[str, ...], problems: list[Problem]
+) -> dict[str, Node]:
+    """Return the named overrides in a part of the file; one that changes nothing where it is not stated."""
+    if part not in root.section:
+        return {only: Node({}, root.line, root.key)}
+    stated = root.section[part]
+    word = part.removesuffix("s")
+    if not isinstance(stated.value, dict) or not stated.value:
+        message = f"{shown(stated.plain())}; allowed: a section for each {word}, under its name"
+        problems.append(Problem(stated.line, stated.key, message))
         return {}
     overrides = {}
-    for name, node in variants.value.items():
+    for name, node in stated.value.items():
         overrides[name] = Node({}, node.line, node.key) if node.value is None else node
         if re.fullmatch(NAME_PATTERN, name) is None:
-            message = f"variant name {shown(name)}; allowed: {NAME_CHARACTERS}"
-            problems.append(Problem(node.line, variants.key, message))
+            message = f"{word} name {shown(name)}; allowed: {NAME_CHARACTERS}"
+            problems.append(Problem(node.line, stated.key, message))
         if not isinstance(overrides[name].value, dict):
-            message = f"{shown(node.plain())}; allowed: a section with the keys {choices(Case.model_fields)}"
+            message = f"{shown(node.plain())}; allowed: a section with the keys {choices(keys)}"
             problems.append(Problem(node.line, node.key, message))
             del overrides[name]
     return overrides

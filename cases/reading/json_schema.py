@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from cases.reading.case_file import OF_A_MODEL
 from cases.sections.case import Case
 from cases.values.kinds import NAME_PATTERN
 
@@ -24,20 +25,36 @@ def case_file_schema() -> dict[str, Any]:
     definitions = case.pop("$defs")
     variant = {**case, "title": "Variant", "description": "What a variant states otherwise than the base."}
     name = {"type": "string", "pattern": f"^{NAME_PATTERN}$"}
-    variants = {
+    model = {
         "type": "object",
-        "minProperties": 1,
-        "propertyNames": name,
-        "additionalProperties": {"anyOf": [{"$ref": "#/$defs/Variant"}, {"type": "null"}]},
+        "title": "Model",
+        "description": "What a reduced model states otherwise than the base.",
+        "properties": {key: case["properties"][key] for key in OF_A_MODEL},
+        "additionalProperties": False,
     }
     return {
         "$schema": DIALECT,
         "title": "Case file",
         "type": "object",
-        "properties": {"name": name, **case["properties"], "variants": variants},
+        "properties": {
+            "name": name,
+            **case["properties"],
+            "models": _named(name, "Model"),
+            "variants": _named(name, "Variant"),
+        },
         "required": ["name"],
         "additionalProperties": False,
-        "$defs": {**definitions, "Variant": variant},
+        "$defs": {**definitions, "Model": model, "Variant": variant},
+    }
+
+
+def _named(name: dict[str, str], definition: str) -> dict[str, Any]:
+    """Return the schema of sections under names, each of which may be empty."""
+    return {
+        "type": "object",
+        "minProperties": 1,
+        "propertyNames": name,
+        "additionalProperties": {"anyOf": [{"$ref": f"#/$defs/{definition}"}, {"type": "null"}]},
     }
 
 

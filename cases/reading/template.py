@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cases.errors import CaseFileError, Problem
-from cases.reading.case_file import CASE_KEYS, check_section, overrides_of, part_of
+from cases.reading.case_file import check_section, merged, models_of, overrides_of
 from cases.reading.variants import merge_variant
 from cases.reading.yaml_nodes import Node, Scalar, parse_yaml, read_text
 from cases.sections.case import Case
@@ -33,7 +33,9 @@ class Template:
     variant: str
 
 
-def load_template(path: Path, variant: str, overrides: Node | None = None) -> Template:
+def load_template(
+    path: Path, variant: str, overrides: Node | None = None, model: str | None = None
+) -> Template:
     """Read one variant of a case file that :func:`cases.reading.case_file.load_case_file` accepts.
 
     The cells and times that a report tabulates are left out.
@@ -46,6 +48,8 @@ def load_template(path: Path, variant: str, overrides: Node | None = None) -> Te
         One of its variants.
     overrides : Node, optional
         Keys to be stated otherwise in addition; merged as a variant is.
+    model : str, optional
+        One of its models; the first where none is named.
 
     Raises
     ------
@@ -54,12 +58,13 @@ def load_template(path: Path, variant: str, overrides: Node | None = None) -> Te
     """
     root = parse_yaml(read_text(path), path)
     variants = overrides_of(root, [])
-    merged = merge_variant(part_of(root, CASE_KEYS), variants[variant])
+    models = models_of(root, [])
+    stated = merged(root, variants, models[model or next(iter(models))])[variant]
     if overrides is not None:
-        merged = merge_variant(merged, overrides)
+        stated = merge_variant(stated, overrides)
     title = Node(variant, root.line, "title")
     context = Context(path.resolve().parent, tuple(variants))
-    sections = {"title": title, **merged.section, **_untabulated(merged)}
+    sections = {"title": title, **stated.section, **_untabulated(stated)}
     return Template(Node(sections, root.line, root.key), context, variant)
 
 

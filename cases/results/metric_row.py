@@ -19,8 +19,9 @@ class MetricRow:
 
     Attributes
     ----------
-    case, variant, quantity, statistic : str
-        What it is about; quantities are those of `cases.fields`, statistics of `cases.statistics`.
+    case, variant, model, quantity, statistic : str
+        What it is about; `model` is the reduced one, quantities are those of `cases.fields`, statistics of
+        `cases.statistics`.
     inflow : str
         Empty for the reduced model as the case states it; "matched" where the flow rate that the 3D
         reference takes in drives it.
@@ -43,6 +44,7 @@ class MetricRow:
 
     case: str
     variant: str
+    model: str
     quantity: str
     statistic: str
     inflow: Inflow
@@ -70,6 +72,7 @@ COLUMNS = [field.name for field in fields(MetricRow)]
 def metric_row(
     case: str,
     variant: str,
+    model: str,
     quantity: str,
     statistic: str,
     *,
@@ -86,7 +89,21 @@ def metric_row(
     """Return a row with the columns that it has no figure for empty; a band judges its error."""
     status: Status = "" if band is None else judged(error, band)
     return MetricRow(
-        case, variant, quantity, statistic, inflow, i, j, t_s, rom, reference, error, unit, band, status
+        case,
+        variant,
+        model,
+        quantity,
+        statistic,
+        inflow,
+        i,
+        j,
+        t_s,
+        rom,
+        reference,
+        error,
+        unit,
+        band,
+        status,
     )
 
 

@@ -121,9 +121,9 @@ class ReferenceSettings(_Settings):
 
 
 class VariantRecord(Record):
-    """Both models of one variant."""
+    """The reduced models of one variant, by name, and what they are compared with."""
 
-    rom: ReducedModelSettings
+    models: Annotated[dict[str, ReducedModelSettings], Field(min_length=1)]
     reference: ReferenceSettings
 
 

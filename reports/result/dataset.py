@@ -10,15 +10,13 @@ import numpy as np
 import xarray as xr
 
 from cases.arrays import Floats
-from cases.results.comparison_file import MODELS, PROFILE_ERROR, PROFILE_ERROR_CURVE, variable, variables
+from cases.results.comparison_file import PROFILE_ERROR, PROFILE_ERROR_CURVE, REFERENCE, variable, variables
 from reports.errors import ReportError
 
-PROFILES = tuple(variable(model, "axial_velocity") for model in MODELS)
-_MAY_BE_INFINITE = tuple(variable(model, "profile_exponent") for model in MODELS)  # plug flow
 _MAY_BE_ABSENT = (PROFILE_ERROR, PROFILE_ERROR_CURVE)  # where nothing flows there is no profile
 _UNREADABLE = (OSError, RuntimeError, TypeError, ValueError)  # what xarray and netCDF4 raise for broken data
 _AXES = ("time", "x", "phi", "y")
-_TEXTS = ("case", "title", "baseline", "compare_time_names", "case_yaml")
+_TEXTS = ("case", "title", "models", "baseline", "compare_time_names", "case_yaml")
 _NUMBERS = ("period_s", "compare_i", "compare_j", "compare_times_s")
 
 
@@ -56,12 +54,15 @@ def _check_names(path: Path, dataset: xr.Dataset) -> None:
     for what, missing in (
         ("dimension", [name for name in dimensions if name not in dataset.sizes]),
         ("coordinate", [name for name in dimensions if name not in dataset.coords]),
-        ("variable", [name for name in variables() if name not in dataset.data_vars]),
         ("attribute", [name for name in (*_TEXTS, *_NUMBERS) if name not in dataset.attrs]),
     ):
         if missing:
             raise ReportError(f"{path}: without {what} {', '.join(missing)}")
-    for name, dims in variables().items():
+    expected = variables(reduced_models(path, dataset))
+    missing = [name for name in expected if name not in dataset.data_vars]
+    if missing:
+        raise ReportError(f"{path}: without variable {', '.join(missing)}")
+    for name, dims in expected.items():
         if dataset[name].dims != dims:
             raise ReportError(f"{path}: {name} has dimensions {dataset[name].dims}; {dims} are expected")
 
@@ -81,18 +82,18 @@ def _check_axes(path: Path, dataset: xr.Dataset) -> None:
 
 
 def _check_values(path: Path, dataset: xr.Dataset) -> None:
-    for name in variables():
+    for name in variables(reduced_models(path, dataset)):
         if name in _MAY_BE_ABSENT:
             continue
         if name.startswith("reference_") and dataset.attrs.get("sparse_reference"):
             continue  # NaN is what the reference does not state
         if "y" in dataset[name].dims:
             continue  # checked when they are read, once: they are most of the file
-        _check_finite(path, dataset[name], infinite=name in _MAY_BE_INFINITE)
+        _check_finite(path, dataset[name], infinite=name.endswith("profile_exponent"))  # of plug flow
 
 
 def read_profiles(path: Path, dataset: xr.Dataset, columns: Sequence[int], rows: Sequence[int]) -> xr.Dataset:
-    """Read both models' axial velocity at some cells of an opened comparison.nc.
+    """Read all models' axial velocity at some cells of an opened comparison.nc.
 
     Every chunk of the file is read once, whole, a variant at a time: to pick cells from the file itself
     would unpack it again for each of them.
@@ -109,7 +110,7 @@ def read_profiles(path: Path, dataset: xr.Dataset, columns: Sequence[int], rows:
     Returns
     -------
     xarray.Dataset
-        PROFILES, each (variant, time, x, phi, y) in m/s.
+        ``<model>_axial_velocity`` and that of the reference, each (variant, time, x, phi, y) in m/s.
 
     Raises
     ------
@@ -117,7 +118,7 @@ def read_profiles(path: Path, dataset: xr.Dataset, columns: Sequence[int], rows:
         If a value anywhere is no finite number, though the reference is no sparse one.
     """
     read = {}
-    for name in PROFILES:
+    for name in (variable(of, "axial_velocity") for of in (REFERENCE, *reduced_models(path, dataset))):
         parts = []
         for part in dataset[name]:
             part.load()
@@ -134,6 +135,24 @@ def _check_finite(path: Path, values: xr.DataArray, infinite: bool = False) -> N
     wrong = np.isnan(values.values) if infinite else ~np.isfinite(values.values)
     if wrong.any():
         raise ReportError(f"{path}: {values.name} has {int(wrong.sum())} values that are not finite numbers")
+
+
+def reduced_models(path: Path, dataset: xr.Dataset) -> tuple[str, ...]:
+    """Names of the reduced models of an opened comparison.nc, in the order of the case file.
+
+    Raises
+    ------
+    ReportError
+        If the attribute is no JSON list of different names.
+    """
+    text = _text(path, "models", dataset.attrs["models"])
+    try:
+        names = json.loads(text)
+    except (RecursionError, ValueError) as error:
+        raise ReportError(f"{path}: models is {text[:60]!r}; a JSON list is expected") from error
+    if not isinstance(names, list) or not names or len({*map(str, names)}) < len(names):
+        raise ReportError(f"{path}: models is {text[:60]!r}; a list of different names is expected")
+    return tuple(map(str, names))
 
 
 @dataclass(frozen=True)

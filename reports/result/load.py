@@ -3,7 +3,7 @@
 import codecs
 import hashlib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -11,10 +11,10 @@ import xarray as xr
 from pydantic import TypeAdapter
 
 from cases.results import comparison_file
-from cases.results.comparison_file import CALCIFIED, MODELS, WALL_STIFFNESS, variable
-from cases.results.provenance import Provenance
+from cases.results.comparison_file import CALCIFIED, MODELS, REFERENCE, ROM, WALL_STIFFNESS, variable
+from cases.results.provenance import Provenance, ReducedModelSettings
 from reports.errors import ReportError
-from reports.result.dataset import Attributes, opened, read_attributes, read_profiles
+from reports.result.dataset import Attributes, opened, read_attributes, read_profiles, reduced_models
 from reports.result.metrics import Metrics, read_metrics
 from reports.result.strict_json import read_json
 
@@ -23,10 +23,14 @@ FIELDS = ("pressure", "radius", "sector_flow_rate", "section_flow_rate", "profil
 
 @dataclass(frozen=True)
 class Comparison:
-    """What a report needs of one comparison.
+    """What a report needs of one comparison, with one of its reduced models in view.
 
     Attributes
     ----------
+    model : str
+        The reduced model in view: of it are `metrics`, and all fields that are named ``rom_…``.
+    views : dict of str to Comparison
+        By reduced model, the same comparison with that model in view.
     directory : Path
         Where it lies.
     case, title, baseline, case_yaml : str
@@ -92,6 +96,21 @@ class Comparison:
     wall_varies_around: dict[str, bool]
     metrics: Metrics
     provenance: Provenance
+    model: str = ROM
+    views: dict[str, "Comparison"] = field(default_factory=dict, compare=False, repr=False)
+
+    @property
+    def models(self) -> tuple[str, ...]:
+        """Names of the reduced models, in the order of the case file."""
+        return tuple(self.views) or (self.model,)
+
+    def of(self, model: str) -> "Comparison":
+        """Return this comparison with another of its reduced models in view."""
+        return self.views.get(model, self)
+
+    def settings(self, variant: str) -> ReducedModelSettings:
+        """How the model in view ran for a variant."""
+        return self.provenance.variants[variant].models[self.model]
 
     @property
     def states(self) -> tuple[int, ...]:
@@ -139,28 +158,45 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
     path = directory / "comparison.nc"
     attributes = read_attributes(path, dataset)
     variants = tuple(str(name) for name in dataset["variant"].values)
-    check_consistency(directory, variants, attributes, metrics, provenance)
+    models = reduced_models(path, dataset)
+    check_consistency(directory, (variants, models), attributes, metrics, provenance)
     columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
     states = [int(np.abs(dataset["time"].values - t).argmin()) for _, t in attributes.times]
-    fields = dataset[[*_both(FIELDS), comparison_file.PROFILE_ERROR, CALCIFIED]].load()
-    return Comparison(
-        directory=directory,
-        **vars(attributes),
-        variants=variants,
-        x=tuple(dataset["x"].values[columns].tolist()),
-        phi=tuple(dataset["phi"].values[rows].tolist()),
-        n_phi=dataset.sizes["phi"],
-        sparse=bool(dataset.attrs.get("sparse_reference")),
-        fields=fields,
-        curves=fields.isel(x=columns),
-        profiles=read_profiles(path, dataset, columns, rows),
-        maps=fields.isel(time=states),
-        error_curves=dataset[comparison_file.PROFILE_ERROR_CURVE].load(),
-        pressure_range_over_section=_pressure_range(fields[_both(("pressure",))]),
-        wall_varies_around=_varies_around(dataset[WALL_STIFFNESS].load()),
-        metrics=metrics,
-        provenance=provenance,
-    )
+    names = [variable(of, name) for of in (REFERENCE, *models) for name in FIELDS]
+    fields = dataset[[*names, comparison_file.PROFILE_ERROR, CALCIFIED]].load()
+    profiles = read_profiles(path, dataset, columns, rows)
+    views: dict[str, Comparison] = {}
+    for model in models:
+        seen = _in_view(fields, model)
+        views[model] = Comparison(
+            directory=directory,
+            **vars(attributes),
+            variants=variants,
+            x=tuple(dataset["x"].values[columns].tolist()),
+            phi=tuple(dataset["phi"].values[rows].tolist()),
+            n_phi=dataset.sizes["phi"],
+            sparse=bool(dataset.attrs.get("sparse_reference")),
+            fields=seen,
+            curves=seen.isel(x=columns),
+            profiles=_in_view(profiles, model),
+            maps=seen.isel(time=states),
+            error_curves=dataset[comparison_file.PROFILE_ERROR_CURVE].load(),
+            pressure_range_over_section=_pressure_range(seen[_both(("pressure",))]),
+            wall_varies_around=_varies_around(dataset[variable(model, WALL_STIFFNESS)].load()),
+            metrics=metrics.of(model),
+            provenance=provenance,
+            model=model,
+            views=views,
+        )
+    return views[models[0]]
+
+
+def _in_view(fields: xr.Dataset, model: str) -> xr.Dataset:
+    """Fields of one reduced model under the names that a single one has, beside those of no model."""
+    own, single = variable(model, ""), variable(ROM, "")
+    names = {str(n): single + str(n).removeprefix(own) for n in fields.data_vars if str(n).startswith(own)}
+    others = [n for n in fields.data_vars if str(n).startswith(variable(REFERENCE, "")) or n == CALCIFIED]
+    return fields[[*names, *others]].rename(names)
 
 
 def _both(names: Sequence[str]) -> list[str]:
@@ -182,24 +218,33 @@ def _varies_around(stiffness: xr.DataArray) -> dict[str, bool]:
 
 def check_consistency(
     directory: Path,
-    variants: Sequence[str],
+    names: tuple[Sequence[str], Sequence[str]],
     attributes: Attributes,
     metrics: Metrics,
     provenance: Provenance,
 ) -> None:
     """Compare what comparison.nc, metrics.json and provenance.json of `directory` each say.
 
+    `names` are the variants and the reduced models of comparison.nc.
+
     Raises
     ------
     ReportError
-        If the case's name, the variants' names or the case file's text differ; the message names the place.
+        If the case's name, names of variants or models, or the case file's text differ; the message names
+        the place.
     """
-    _check_rows(directory / "metrics.json", variants, attributes.case, metrics)
+    variants, models = names
+    _check_rows(directory / "metrics.json", names, attributes.case, metrics)
     path = directory / "provenance.json"
     if set(provenance.variants) != set(variants):
         raise ReportError(
             f"{path}: variants are {_names(provenance.variants)}; comparison.nc has {_names(variants)}"
         )
+    for name, record in provenance.variants.items():
+        if set(record.models) != set(models):
+            raise ReportError(
+                f"{path}: {name}: models are {_names(record.models)}; comparison.nc has {_names(models)}"
+            )
     for number, band in enumerate(provenance.bands, start=1):
         unknown = [name for name in band.variants or () if name not in variants]
         if unknown:
@@ -213,12 +258,15 @@ def check_consistency(
         )
 
 
-def _check_rows(path: Path, variants: Sequence[str], case: str, metrics: Metrics) -> None:
+def _check_rows(path: Path, names: tuple[Sequence[str], Sequence[str]], case: str, metrics: Metrics) -> None:
+    variants, models = names
     for number, row in enumerate(metrics.rows, start=1):
         if row.case != case:
             raise ReportError(f"{path}: row {number}: case is {row.case!r}; comparison.nc is of {case!r}")
         if row.variant not in variants:
             raise ReportError(f"{path}: row {number}: variant {row.variant!r} is none of {_names(variants)}")
+        if row.model not in models:
+            raise ReportError(f"{path}: row {number}: model {row.model!r} is none of {_names(models)}")
 
 
 def _names(names: Iterable[str]) -> str:

@@ -18,6 +18,10 @@ class Metrics:
     rows: tuple[MetricRow, ...]
     index: dict[tuple[object, ...], MetricRow]
 
+    def of(self, model: str) -> "Metrics":
+        """Return the rows of one reduced model."""
+        return of_rows(tuple(row for row in self.rows if row.model == model))
+
     def bands(self) -> tuple[MetricRow, ...]:
         """Rows that judge a declared band."""
         return tuple(row for row in self.rows if row.status)
@@ -83,6 +87,11 @@ def read_metrics(path: Path) -> Metrics:
                 f"{path}: row {number} ({row.variant}, {row.quantity}, {row.statistic}): status is "
                 f"{row.status!r}, but an error of {row.error} with a band of {row.band} gives {verdict!r}"
             )
+    return of_rows(rows)
+
+
+def of_rows(rows: tuple[MetricRow, ...]) -> Metrics:
+    """Return rows of one reduced model, or of several before one is chosen, with their index."""
     index: dict[tuple[object, ...], MetricRow] = {
         (r.variant, r.quantity, r.statistic, r.i, r.j, _instant(r.t_s), r.inflow): r
         for r in rows

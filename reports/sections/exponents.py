@@ -87,8 +87,8 @@ def _figure(comparison: Comparison, variant: str, key: str) -> Figure:
 @declared("exponents", "Closest γ", instants("maps"))
 def section(comparison: Comparison) -> Blocks:
     """Return the closest profile exponents."""
-    records = comparison.provenance.variants
-    with_modes = [name for name, of in records.items() if of.rom.profile == "two_mode"]
+    records = comparison.variants
+    with_modes = [name for name in records if comparison.settings(name).profile == "two_mode"]
     profile = f"v{SPACE}={SPACE}v₀{SPACE}(1{SPACE}−{SPACE}(r/R)^γ)"
     assumed = (
         f"γ is the exponent of the profile {profile} that is closest along each ray"

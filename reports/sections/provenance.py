@@ -4,12 +4,15 @@ import hashlib
 import json
 from collections.abc import Mapping
 
+from pydantic import JsonValue
+
 from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Table
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts.cost import cost_table, records_table
 from reports.wording.numbers import ABSENT, counted
 
+Facts = Mapping[str, JsonValue]
 _SMALL = 1e-6  # figures that matter by their order of magnitude only
 _KEYS = {
     "n_x": "cells along the artery",
@@ -65,14 +68,11 @@ def _run(comparison: Comparison) -> Table:
     )
 
 
-def _models(comparison: Comparison, side: str, caption: str) -> Table:
+def _facts(comparison: Comparison, key: str, caption: str, facts: Mapping[str, Facts]) -> Table:
     """Write facts of one model, a row each, with a column for each variant."""
-    facts = {
-        name: getattr(comparison.provenance.variants[name], side).facts() for name in comparison.variants
-    }
     keys = dict.fromkeys(key for of_variant in facts.values() for key in of_variant)
     return Table(
-        side,
+        key,
         caption,
         (Column("setting"), *(Column(name, "prose") for name in comparison.variants)),
         tuple((_key(key), *(_word(facts[name].get(key)) for name in comparison.variants)) for key in keys),
@@ -105,9 +105,13 @@ def section(comparison: Comparison) -> Blocks:
         ),
         Listing("Command", p.command),
         _run(comparison),
-        _models(comparison, "rom", "2D model: grid, time step and settings."),
-        _models(comparison, "reference", "3D reference: files, mesh and states."),
     ]
+    for model in comparison.models:
+        told = {name: comparison.of(model).settings(name).facts() for name in comparison.variants}
+        which = "2D model" if len(comparison.models) == 1 else f"2D model {model}"
+        blocks.append(_facts(comparison, model, f"{which}: grid, time step and settings.", told))
+    told = {name: p.variants[name].reference.facts() for name in comparison.variants}
+    blocks.append(_facts(comparison, "reference", "3D reference: files, mesh and states.", told))
     blocks += [table for table in (records_table(comparison), cost_table(comparison)) if table]
     if p.wall_times_s:
         blocks.append(

@@ -150,10 +150,10 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
             "Of 3D one cycle is compared; whether 3D had become periodic by then is not measured in "
             f"{listed(unmeasured)}: no two of its states are a cycle apart."
         )
-    unrated = [name for name in comparison.variants if variants[name].rom.cycle_change is None]
+    unrated = [name for name in comparison.variants if comparison.settings(name).cycle_change is None]
     if unrated:
         said.append(f"Whether the 2D model of {listed(unrated)} had become periodic was not recorded.")
-    once = [name for name in comparison.variants if variants[name].rom.cycles == 1]
+    once = [name for name in comparison.variants if comparison.settings(name).cycles == 1]
     if once:
         said.append(
             f"The 2D model ran a single cycle for {listed(once)}: whether it had become periodic is not "

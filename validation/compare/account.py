@@ -1,6 +1,6 @@
 """What a comparison says of itself: notes, warnings, and where everything came from."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from cases.reading.case_file import CaseFile
 from cases.results.provenance import DeclaredBand, Provenance
@@ -14,25 +14,30 @@ from validation.metrics.confidence import SEED
 from validation.reference.alignment import WHOLE
 from validation.runs.instants import nearest_states, wanted_instants
 from validation.runs.provenance import provenance
+from validation.runs.variants import labelled
+
+Runs = Mapping[str, Mapping[str, VariantRun]]  # by variant and model
 
 
-def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
+def notes_of(runs: Runs) -> list[str]:
     """Say what a reader should know, each thing once."""
-    notes = [note for run in runs.values() for note in run.reference.notes]
-    for name, run in runs.items():
+    firsts = {name: next(iter(models.values())) for name, models in runs.items()}
+    notes = [note for run in firsts.values() for note in run.reference.notes]
+    for name, run in firsts.items():
         later = run.reference.alignment.cycles_later
         notes.append(
             f"{name}: instants are matched within the cycle; the reduced model's last cycle is "
             f"{abs(later)} cycle{'s' * (abs(later) != 1)} {'later' if later >= 0 else 'earlier'} than the "
             f"reference's, whose states cover {run.reference.alignment.coverage:.1%} of it"
         )
+    each = _labelled(runs)
+    for name, run in each.items():
         notes.append(
             f"{name}: pressure and flow rate of the reduced model change by at most "
             f"{run.rom.cycle_change:.1e} (relative) from the start to the end of the last cycle"
         )
-    for run in runs.values():
         notes += [] if run.sources is None else run.sources.notes
-    stated = ", ".join(f"{value:g}" for value in sorted({run.case.blood.viscosity for run in runs.values()}))
+    stated = ", ".join(f"{value:g}" for value in sorted({run.case.blood.viscosity for run in each.values()}))
     notes.append(
         f"viscosity of the reduced model: {stated} Pa s; that of the reference, its density and its wall's "
         "moduli are not compared with the case"
@@ -40,59 +45,77 @@ def notes_of(runs: Mapping[str, VariantRun]) -> list[str]:
     return list(dict.fromkeys(notes))
 
 
-def warnings_of(runs: Mapping[str, VariantRun]) -> list[str]:
-    """Say what casts doubt on the verdict."""
-    found = []
-    for name, run in runs.items():
-        alignment, times = run.reference.alignment, run.reference.alignment.cycle_times
-        found += [f"{name}: {doubt}" for doubt in doubts_of(run.case)]
-        found += [f"{name}: {note}" for note in run.reference.notes if "cut off" in note]
-        of_levels = () if run.sources is None else run.sources.warnings
-        found += [f"{name}: {warning}" for warning in (*run.reference.warnings, *of_levels)]
-        if alignment.coverage < WHOLE:
-            found.append(
-                f"{name}: the reference's states cover only {alignment.coverage:.1%} of the cycle, "
-                "so the errors and the bands judge that part alone (is reference.time_offset right?)"
-            )
-        wanted = wanted_instants(run.case)
-        missed = [instant for instant in wanted if instant not in nearest_states(wanted, times)]
-        if missed:
-            found.append(f"{name}: no state of the reference is near {', '.join(missed)}: not tabulated")
-        warning = locality_warning(run.rom.description.get("wall_locality_error"))
-        found += [f"{name}: {warning}"] if warning else []
-        warning = periodicity_warning(run.rom.cycle_change)
-        found += [f"{name}: {warning}"] if warning else []
+def _labelled(runs: Runs) -> dict[str, VariantRun]:
+    return {
+        labelled(name, model, models): run for name, models in runs.items() for model, run in models.items()
+    }
+
+
+def warnings_of(runs: Runs) -> list[str]:
+    """Say what casts doubt on the verdict: of each reference, then of each run of a reduced model."""
+    found: list[str] = []
+    for name, models in runs.items():
+        found += _warnings_of_reference(name, next(iter(models.values())))
+    for name, run in _labelled(runs).items():
+        warnings = (
+            *(() if run.sources is None else run.sources.warnings),
+            locality_warning(run.rom.description.get("wall_locality_error")),
+            periodicity_warning(run.rom.cycle_change),
+        )
+        found += [f"{name}: {warning}" for warning in warnings if warning]
     return found
+
+
+def _warnings_of_reference(name: str, run: VariantRun) -> Iterator[str]:
+    """Warnings of what a variant's models share: boundary values, and the reference."""
+    alignment, times = run.reference.alignment, run.reference.alignment.cycle_times
+    notes = [note for note in run.reference.notes if "cut off" in note]
+    for warning in (*doubts_of(run.case), *notes, *run.reference.warnings):
+        yield f"{name}: {warning}"
+    if alignment.coverage < WHOLE:
+        yield (
+            f"{name}: the reference's states cover only {alignment.coverage:.1%} of the cycle, "
+            "so the errors and the bands judge that part alone (is reference.time_offset right?)"
+        )
+    wanted = wanted_instants(run.case)
+    missed = [instant for instant in wanted if instant not in nearest_states(wanted, times)]
+    if missed:
+        yield f"{name}: no state of the reference is near {', '.join(missed)}: not tabulated"
 
 
 def described(
     file: CaseFile,
-    runs: Mapping[str, VariantRun],
+    runs: Runs,
     wall_times: dict[str, float],
     command: list[str],
     notes: list[str],
 ) -> Provenance:
     """Provenance of a finished comparison, with notes and warnings."""
-    inputs = [path for case in file.variants.values() for path in case.input_files]
+    cases = [case for variants in file.models.values() for case in variants.values()]
+    inputs = [path for case in cases for path in case.input_files]
     stated = {
-        "seeds": {"bootstrap": SEED} | _seeds_of_inputs(file.variants),
+        "seeds": {"bootstrap": SEED} | _seeds_of_inputs(file),
         "wall_times_s": wall_times,
         "notes": [*notes, *notes_of(runs)],
         "warnings": warnings_of(runs),
         "variants": {
-            name: {"rom": run.rom.description, "reference": run.reference.description}
-            for name, run in runs.items()
+            name: {
+                "models": {model: run.rom.description for model, run in models.items()},
+                "reference": next(iter(models.values())).reference.description,
+            }
+            for name, models in runs.items()
         },
         "bands": declared_bands(file.variants),
     }
     return Provenance.model_validate(provenance(file.path, inputs, command) | stated, strict=False)
 
 
-def _seeds_of_inputs(cases: Mapping[str, Case]) -> dict[str, int]:
-    """Seeds of the samples of uncertain inputs, by variant."""
+def _seeds_of_inputs(file: CaseFile) -> dict[str, int]:
+    """Seeds of the samples of uncertain inputs, by variant and model."""
     return {
-        f"uncertainty of {name}": case.uncertainty.seed
-        for name, case in cases.items()
+        f"uncertainty of {labelled(variant, model, file.models)}": case.uncertainty.seed
+        for model, variants in file.models.items()
+        for variant, case in variants.items()
         if case.uncertainty is not None and case.uncertainty.method == "latin_hypercube"
     }
 

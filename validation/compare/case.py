@@ -13,18 +13,18 @@ import xarray as xr
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
 from cases.reading.template import load_template
-from cases.results.comparison_file import PROFILE_ERROR_CURVE
+from cases.results.comparison_file import ERROR_BUDGET, PROFILE_ERROR_CURVE, variable
 from cases.results.metric_row import MetricRow, Status
 from solver.case.model import inlet_signal
 from validation.compare.account import described
 from validation.compare.budget.inputs import input_uncertainty
 from validation.compare.budget.judged import judged_quantities
-from validation.compare.budget.parts import VARIABLE, budget_array, budget_rows, budgets_of
+from validation.compare.budget.parts import budget_array, budget_rows, budgets_of
 from validation.compare.comparison import (
     VariantRun,
+    all_models,
     at_common_instants,
     attributes,
-    both_models,
     check_variants,
     without_fields,
 )
@@ -44,7 +44,7 @@ from validation.reference.generated import check_computed, check_stated
 from validation.runs.cache import Cache
 from validation.runs.output import check_target, result_directory, write_json, write_metrics
 from validation.runs.reduced_model import ReducedModelRun
-from validation.runs.variants import Watch, align_variants, resolved, run_variants, watching
+from validation.runs.variants import Watch, align_variants, labelled, resolved, run_variants, watching
 
 VERDICTS: tuple[Status, ...] = ("OK", "FAIL", "MISSING")
 
@@ -78,13 +78,15 @@ def matched_rows(models: Models, matched: ReducedModelRun) -> list[MetricRow]:
     return [replace(row, inflow="matched") for row in rows]
 
 
-def uncertain_inputs(file: CaseFile, name: str, run: VariantRun, watch: Watch) -> Mapping[str, float] | None:
+def uncertain_inputs(
+    file: CaseFile, name: str, model: str, run: VariantRun, watch: Watch
+) -> Mapping[str, float] | None:
     """By quantity, what uncertain inputs leave open; None where the case says nothing of them."""
     if run.case.uncertainty is None:
         return None
-    with watch.step(f"{name}: uncertain inputs"):
+    with watch.step(f"{labelled(name, model, file.models)}: uncertain inputs"):
         return input_uncertainty(
-            load_template(file.path, name),
+            load_template(file.path, name, model=model),
             run.case,
             run.reference.alignment.rom_times,
             judged_quantities(),
@@ -99,10 +101,10 @@ def source_rows(
     """Rows of what errors owe to what; the budget is added to the dataset of ``both`` models."""
     sources, stated = run.sources, run.case.uncertainty
     if sources is None:
-        both[VARIABLE] = budget_array({})
+        both[variable(models.model, ERROR_BUDGET)] = budget_array({})
         return []
     budgets = budgets_of(models, sources, inputs, stated is None or stated.shared_with_reference)
-    both[VARIABLE] = budget_array(budgets)
+    both[variable(models.model, ERROR_BUDGET)] = budget_array(budgets)
     matched = [] if sources.matched is None else matched_rows(models, sources.matched)
     return [*matched, *budget_rows(models, budgets)]
 
@@ -145,8 +147,8 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
     check_stated(file)
     check_computed(file.path, file.variants)
     with watching(cache) as watch, result_directory(target) as directory:
-        file = replace(file, variants=resolved(file.variants, watch))
-        check_variants(file.variants)
+        file = replace(file, models=resolved(file.models, watch))
+        check_variants(file.models)
         rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):
             write_metrics(directory, metrics.to_frame(rows))
@@ -157,38 +159,41 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
     return Outcome(rows, [*watch.remarks, *account.warnings])
 
 
-def _compared(
-    file: CaseFile, directory: Path, watch: Watch
-) -> tuple[list[MetricRow], dict[str, VariantRun], list[str]]:
-    """Run all variants; leave comparison.nc. Returns all rows, the runs without their fields, and notes."""
+Runs = dict[str, dict[str, VariantRun]]  # by variant and model
+
+
+def _compared(file: CaseFile, directory: Path, watch: Watch) -> tuple[list[MetricRow], Runs, list[str]]:
+    """Run all models of all variants; leave comparison.nc. Returns all rows, the runs, and notes."""
     alignments, notes = at_common_instants(file.variants, align_variants(file.variants))
     times = alignments[next(iter(file.variants))].cycle_times
     about = attributes(file, times)
-    rows: dict[str, list[MetricRow]] = {}
-    runs: dict[str, VariantRun] = {}
-    compared: dict[str, Models] = {}
+    rows: dict[tuple[str, str], list[MetricRow]] = {}
+    runs: Runs = {}
+    compared: dict[tuple[str, str], Models] = {}
     writing: list[Future[None]] = []
     with (
         comparison_file(directory / "comparison.nc", list(file.variants), about) as stored,
         ThreadPoolExecutor(max_workers=1) as writer,  # netCDF works outside the interpreter's lock
     ):
-        for name, run in run_variants(file.variants, alignments, watch, load_reports):
-            both = both_models(run, times)
-            inputs = uncertain_inputs(file, name, run, watch)
+        for name, of_models in run_variants(file.models, alignments, watch, load_reports):
+            fields = all_models(of_models, times)
+            for model, run in of_models.items():
+                inputs = uncertain_inputs(file, name, model, run, watch)
+                with watch.step("metrics"):
+                    told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
+                    models = models_of(file.name, name, fields, about["period_s"], model, **told)
+                    owed = source_rows(models, run, inputs, fields)
+                    rows[name, model] = [*variant_rows(models, run, about), *owed]
+                    compared[name, model] = without_rays(models)
             with watch.step("metrics"):
-                told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
-                models = models_of(file.name, name, both, about["period_s"], **told)
-                owed = source_rows(models, run, inputs, both)
-                rows[name] = [*variant_rows(models, run, about), *owed]
-                compared[name] = without_rays(models)
-                both[PROFILE_ERROR_CURVE] = error_curves(models, about)
-            writing.append(writer.submit(_store, stored, name, both, watch))
+                fields[PROFILE_ERROR_CURVE] = error_curves(models, about)
+            writing.append(writer.submit(_store, stored, name, fields, watch))
             with watch.step("files for ParaView"):
-                write_walls(directory, name, both)
-            runs[name] = without_fields(run)
+                write_walls(directory, name, list(file.models), fields)
+            runs[name] = {model: without_fields(run) for model, run in of_models.items()}
         for written in writing:
             written.result()
-    ordered = [row for name in file.variants for row in rows[name]]
+    ordered = [row for name in file.variants for model in file.models for row in rows[name, model]]
     baselines = json.loads(about["baselines"])
     changes = [*metrics.change_rows(ordered, baselines), *pooled_change_rows(compared, baselines)]
     return ordered + changes, {name: runs[name] for name in file.variants}, notes

@@ -1,4 +1,4 @@
-"""Both models of every variant on the same points, at the same instants."""
+"""The models of every variant on the same points, at the same instants."""
 
 import json
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
-from cases.results.comparison_file import CALCIFIED, WALL_STIFFNESS, variable
+from cases.results.comparison_file import CALCIFIED, REFERENCE, WALL_STIFFNESS, variable
 from cases.sections.calcification import NoCalcification
 from cases.sections.case import Case
 from solver.case.model import calcified_cells
@@ -32,7 +32,7 @@ _AXES = {
 
 @dataclass(frozen=True)
 class VariantRun:
-    """What one variant gave."""
+    """What one reduced model of a variant gave, and what it is compared with."""
 
     case: Case
     rom: ReducedModelRun
@@ -61,8 +61,13 @@ def baseline_of(file: CaseFile) -> str:
     return next(iter(baselines_of(file).values()), "")
 
 
-def check_variants(cases: Mapping[str, Case]) -> None:
-    """Check before any run that variants can share one dataset.
+def check_variants(models: Mapping[str, Mapping[str, Case]]) -> None:
+    """Check before any run that the variants of all models can share one dataset.
+
+    Parameters
+    ----------
+    models : mapping of str to mapping of str to Case
+        By model and variant.
 
     Raises
     ------
@@ -70,8 +75,9 @@ def check_variants(cases: Mapping[str, Case]) -> None:
         If grids, periods or tabulated cells and instants differ, or the inlet lacks an instant that is to be
         tabulated.
     """
-    first_name, first = next(iter(cases.items()))
-    for name, case in cases.items():
+    cases = [(name, case) for variants in models.values() for name, case in variants.items()]
+    first_name, first = cases[0]
+    for name, case in cases:
         wanted_instants(case)
         for what, here, there in (
             ("solver.n_x", case.solver.n_x, first.solver.n_x),
@@ -82,9 +88,9 @@ def check_variants(cases: Mapping[str, Case]) -> None:
             ("compare.times", case.compare.times, first.compare.times),
         ):
             if here != there:
+                whose = f"variants {first_name!r} and {name!r}" if name != first_name else "models"
                 raise ValidationError(
-                    f"variants {first_name!r} and {name!r} differ in {what} ({there} and {here}); "
-                    "variants compared in one report share it"
+                    f"{whose} differ in {what} ({there} and {here}); those compared in one report share it"
                 )
 
 
@@ -111,24 +117,25 @@ def at_common_instants(
     return kept, notes
 
 
-def both_models(run: VariantRun, times: Floats) -> xr.Dataset:
-    """One variant on (time, x, phi, y): ``rom_<field>``, ``reference_<field>``, wall.
+def all_models(runs: Mapping[str, VariantRun], times: Floats) -> xr.Dataset:
+    """One variant on (time, x, phi, y): ``<model>_<field>`` of each model and of the reference.
 
     ``times`` are those of the first variant: instants that variants share differ by round-off.
     """
+    first = next(iter(runs.values()))
+    fields = {model: run.rom.fields for model, run in runs.items()} | {REFERENCE: first.reference.fields}
     parts = [
-        fields.assign_coords(time=times).rename(
-            {name: variable(model, str(name)) for name in fields.data_vars}
-        )
-        for model, fields in (("rom", run.rom.fields), ("reference", run.reference.fields))
+        each.assign_coords(time=times).rename({name: variable(model, str(name)) for name in each.data_vars})
+        for model, each in fields.items()
     ]
-    both = xr.merge(parts, join="exact")
-    calcified = calcified_cells(run.case).astype(np.int8)
-    both[WALL_STIFFNESS] = run.rom.stiffness
-    both[CALCIFIED] = (("x", "phi"), calcified, {"units": "1", "long_name": "inside the calcification"})
+    found = xr.merge(parts, join="exact")
+    for model, run in runs.items():
+        found[variable(model, WALL_STIFFNESS)] = run.rom.stiffness
+    calcified = calcified_cells(first.case).astype(np.int8)
+    found[CALCIFIED] = (("x", "phi"), calcified, {"units": "1", "long_name": "inside the calcification"})
     for axis, (unit, words) in _AXES.items():
-        both[axis].attrs = {"units": unit, "long_name": words}
-    return both
+        found[axis].attrs = {"units": unit, "long_name": words}
+    return found
 
 
 def without_fields(run: VariantRun) -> VariantRun:
@@ -161,6 +168,7 @@ def attributes(file: CaseFile, times: Floats) -> dict[str, Any]:
         "Conventions": CONVENTIONS,
         "case": file.name,
         "title": file.title,
+        "models": json.dumps(list(file.models)),
         "baseline": baseline_of(file),
         "period_s": case.inlet.period,
         "compare_i": np.array(case.compare.cells.i),

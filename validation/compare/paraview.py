@@ -1,6 +1,6 @@
-"""Both models' lumen wall over the cycle, with the cells' values, for ParaView: a VTKHDF file each."""
+"""The models' lumen wall over the cycle, with the cells' values, for ParaView: a VTKHDF file each."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,7 @@ import xarray as xr
 from cases.arrays import Floats, Integers
 from cases.fields import CELL, FIELDS
 from cases.quantities import tabulated
-from cases.results.comparison_file import CALCIFIED, MODELS, WALL_STIFFNESS, variable
+from cases.results.comparison_file import CALCIFIED, REFERENCE, WALL_STIFFNESS, variable
 from febio_io.views.vtk_times import write_over_time
 
 DRAWN = 48  # rows with which an artery of one row is drawn round
@@ -47,8 +47,8 @@ def wall_points(x: Floats, phi: Floats, radius: Floats) -> Floats:
     return np.stack([along, corners * np.cos(around), corners * np.sin(around)], axis=-1).reshape(-1, 3)
 
 
-def _wall_at(model: str, both: xr.Dataset) -> Callable[[int], pv.PolyData]:
-    """Return what makes the surface of a state, with the values of its cells."""
+def _wall_at(model: str, stiffness: str, both: xr.Dataset) -> Callable[[int], pv.PolyData]:
+    """Return what makes the surface of a state, with the values of its cells and a wall's stiffness."""
     axes = both["x"].to_numpy(), both["phi"].to_numpy()
     if axes[1].size == 1:
         both = both.isel(phi=np.zeros(DRAWN, dtype=int))
@@ -58,7 +58,7 @@ def _wall_at(model: str, both: xr.Dataset) -> Callable[[int], pv.PolyData]:
     quads = quadrilaterals(*(axis.size for axis in axes))
     faces = np.column_stack([np.full(len(quads), 4), quads]).ravel()
     still = {
-        WALL_STIFFNESS: both[WALL_STIFFNESS].to_numpy().astype(np.float32),
+        WALL_STIFFNESS: both[stiffness].to_numpy().astype(np.float32),
         CALCIFIED: both[CALCIFIED].to_numpy(),
     }
 
@@ -74,8 +74,8 @@ def _wall_at(model: str, both: xr.Dataset) -> Callable[[int], pv.PolyData]:
     return wall
 
 
-def write_walls(directory: Path, variant: str, both: xr.Dataset) -> None:
-    """Write ``rom_<variant>.vtkhdf`` and ``reference_<variant>.vtkhdf``; a model without radii is left out.
+def write_walls(directory: Path, variant: str, models: Sequence[str], both: xr.Dataset) -> None:
+    """Write ``<model>_<variant>.vtkhdf`` and ``reference_<variant>.vtkhdf``; one without radii is left out.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def write_walls(directory: Path, variant: str, both: xr.Dataset) -> None:
         If a file cannot be written.
     """
     times = both["time"].to_numpy().tolist()
-    for model in MODELS:
+    for model, of in (*zip(models, models, strict=True), (REFERENCE, models[0])):
         if not np.any(np.isnan(both[variable(model, "radius")])):
             path = directory / f"{model}_{variant}.vtkhdf"
-            write_over_time(path, "vtkPolyData", times, _wall_at(model, both))
+            write_over_time(path, "vtkPolyData", times, _wall_at(model, variable(of, WALL_STIFFNESS), both))

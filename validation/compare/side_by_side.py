@@ -11,7 +11,7 @@ from validation.errors import ValidationError
 from validation.metrics.rows import to_frame
 
 POOLED = ("rms_error", "bias", "bias_low", "bias_high", "scatter", "rms_difference", "change_rms", "cycle")
-LINE = ["variant", "quantity", "statistic", "inflow", "unit"]
+LINE = ["variant", "model", "quantity", "statistic", "inflow", "unit"]
 FIGURES = ["rom", "reference", "error", "band", "status"]
 STEM = "side_by_side"
 
@@ -27,14 +27,14 @@ def side_by_side(cases: Mapping[str, Sequence[MetricRow]]) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        Columns ``variant``, ``quantity``, ``statistic``, ``inflow``, ``unit``, then ``<case>: <figure>``;
-        empty where a case has no such figure. A band's line comes instead of that of its statistic without
-        a band.
+        Columns ``variant``, ``model``, ``quantity``, ``statistic``, ``inflow``, ``unit``, then
+        ``<case>: <figure>``; empty where a case has no such figure. A band's line comes instead of that
+        of its statistic without a band.
     """
     tables = []
     for name, rows in cases.items():
         chosen = [row for row in rows if row.status or (row.statistic in POOLED and row.i is None)]
-        table = to_frame(chosen).drop_duplicates(LINE[:4]).set_index(LINE)  # bands stand first
+        table = to_frame(chosen).drop_duplicates(LINE[:5]).set_index(LINE)  # bands stand first
         tables.append(table[FIGURES].add_prefix(f"{name}: "))
     return pd.concat(tables, axis=1, sort=False).reset_index()
 

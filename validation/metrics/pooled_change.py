@@ -21,19 +21,22 @@ def without_rays(models: Models) -> Models:
     return replace(models, **kept)
 
 
-def pooled_change_rows(variants: Mapping[str, Models], baselines: Mapping[str, str]) -> Iterator[MetricRow]:
+def pooled_change_rows(
+    compared: Mapping[tuple[str, str], Models], baselines: Mapping[str, str]
+) -> Iterator[MetricRow]:
     """Root mean square over all cells and instants of each model's change from the baseline.
 
     ``error`` is that of the difference between both models' changes, over the reference's change.
 
     Parameters
     ----------
-    variants : mapping of str to Models
+    compared : mapping of (str, str) to Models
+        By variant and reduced model.
     baselines : mapping of str to str
         By variant, the one to compare it with.
     """
-    for name, models in variants.items():
-        baseline = variants.get(baselines.get(name, name))
+    for (name, model), models in compared.items():
+        baseline = compared.get((baselines.get(name, name), model))
         if baseline is None or baseline is models or models.sparse:
             continue
         for quantity in tabulated():

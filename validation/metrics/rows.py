@@ -11,7 +11,7 @@ import xarray as xr
 from cases.arrays import Floats
 from cases.fields import FIELDS
 from cases.quantities import of_cycle, pooled, reads, statistics_of, tabulated
-from cases.results.comparison_file import MODELS, variable
+from cases.results.comparison_file import REFERENCE, ROM, variable
 from cases.results.metric_row import COLUMNS, MetricRow, metric_row
 from cases.statistics import statistic_of
 from validation.metrics.quantities import CYCLE_QUANTITIES, phase_lag, values_of
@@ -22,7 +22,7 @@ DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")
 
 @dataclass(frozen=True)
 class Models:
-    """Both models of one variant, fields under their own names.
+    """A reduced model and the reference of one variant, fields under their own names.
 
     Where the reference is ``sparse``, NaN is what it does not state. ``stated`` are its own numbers of the
     cycle, by quantity.
@@ -35,6 +35,7 @@ class Models:
     period: float
     sparse: bool = False
     stated: Mapping[str, float] = field(default_factory=dict)
+    model: str = ROM
 
     def has(self, quantity: str) -> bool:
         """Whether both models have a quantity."""
@@ -64,20 +65,23 @@ class Models:
         """Row of this variant; its unit is that of values, or of an absolute error."""
         has_unit = not statistic_of(statistic).relative or "rom" in values or "reference" in values
         unit = FIELDS[quantity].unit if has_unit else "1"
-        return metric_row(self.case, self.variant, quantity, statistic, unit=unit, **values)
+        return metric_row(self.case, self.variant, self.model, quantity, statistic, unit=unit, **values)
 
 
-def models_of(case: str, variant: str, both: xr.Dataset, period: float, **about: Any) -> Models:
-    """Split one variant, with fields ``rom_…`` and ``reference_…``, into its two models.
+def models_of(
+    case: str, variant: str, both: xr.Dataset, period: float, model: str = ROM, **about: Any
+) -> Models:
+    """One variant's fields ``<model>_…`` and ``reference_…`` as a reduced model and the reference.
 
     ``about``: ``sparse`` and ``stated`` of :class:`Models`.
     """
-    parts = {}
-    for model in MODELS:
-        prefix = variable(model, "")
+
+    def fields(of: str) -> xr.Dataset:
+        prefix = variable(of, "")
         names = {str(n): str(n).removeprefix(prefix) for n in both.data_vars if str(n).startswith(prefix)}
-        parts[model] = both[list(names)].rename(names)
-    return Models(case, variant, parts["rom"], parts["reference"], period, **about)
+        return both[list(names)].rename(names)
+
+    return Models(case, variant, fields(model), fields(REFERENCE), period, model=model, **about)
 
 
 def _single(rom: float, reference: float | None) -> float | None:
@@ -253,10 +257,10 @@ def change_rows(rows: list[MetricRow], baselines: Mapping[str, str]) -> Iterator
         and row.rom is not None
         and row.quantity not in DOMINANCE
     ]
-    known = {(r.variant, r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in kept}
+    known = {(r.variant, r.model, r.quantity, r.statistic, r.i, r.j, r.t_s): r for r in kept}
     for row in kept:
         baseline = baselines.get(row.variant, row.variant)
-        other = known.get((baseline, row.quantity, row.statistic, row.i, row.j, row.t_s))
+        other = known.get((baseline, row.model, row.quantity, row.statistic, row.i, row.j, row.t_s))
         if row.variant != baseline and other is not None:
             yield from _change(row, other)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 MARK = "provenance.json"  # every finished result has one
-PARAVIEW_FILES = ("rom_*.vtkhdf", "reference_*.vtkhdf")
+PARAVIEW_FILES = "*_*.vtkhdf"  # MODEL_VARIANT
 RESULT_FILES = {
     MARK,
     "ablation.csv",
@@ -58,7 +58,7 @@ def check_target(target: Path) -> None:
 
 def is_result_file(name: str) -> bool:
     """Whether a file of this name belongs to a result."""
-    return name in RESULT_FILES or any(fnmatch.fnmatchcase(name, pattern) for pattern in PARAVIEW_FILES)
+    return name in RESULT_FILES or fnmatch.fnmatchcase(name, PARAVIEW_FILES)
 
 
 def _check_content(target: Path, names: set[str]) -> None:

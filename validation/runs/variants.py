@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -80,19 +80,23 @@ def align_variants(cases: Mapping[str, Case]) -> dict[str, Alignment]:
 
 
 def run_variants(
-    cases: Mapping[str, Case],
+    models: Mapping[str, Mapping[str, Case]],
     alignments: Mapping[str, Alignment],
     watch: Watch,
     meanwhile: Callable[[], None] = lambda: None,
-) -> Iterator[tuple[str, VariantRun]]:
+) -> Iterator[tuple[str, dict[str, VariantRun]]]:
     """Map all references and run the reduced models, two at a time, and give each variant as it is done.
+
+    A variant comes with its runs by model, which share its reference.
 
     References take longest, so they go first and the short runs fill what processor is left over. The
     order of variants may be any. The first error stops the others and is raised.
 
     Parameters
     ----------
-    cases, alignments : mapping
+    models : mapping
+        By model and variant.
+    alignments : mapping
         By variant.
     watch : Watch
     meanwhile : callable, optional
@@ -104,31 +108,62 @@ def run_variants(
         As the kind of reference and the solver raise.
     """
     pool = ThreadPoolExecutor(max_workers=WORKERS)
+    of_first = next(iter(models.values()))
+    each = [(name, model) for name in of_first for model in models]
     try:
         references = {
-            name: pool.submit(_reference, name, case, alignments[name], watch) for name, case in cases.items()
+            name: pool.submit(_reference, name, case, alignments[name], watch)
+            for name, case in of_first.items()
         }
         roms = {
-            name: pool.submit(_reduced_model, name, case, alignments[name], watch)
-            for name, case in cases.items()
+            (name, model): pool.submit(
+                _reduced_model,
+                labelled(name, model, models),
+                models[model][name],
+                alignments[name],
+                watch,
+            )
+            for name, model in each
         }
         sources = {
-            name: pool.submit(_sources, name, case, (roms[name], references[name]), watch)
-            for name, case in cases.items()
+            (name, model): pool.submit(
+                _sources,
+                labelled(name, model, models),
+                models[model][name],
+                (roms[name, model], references[name]),
+                watch,
+            )
+            for name, model in each
         }
         meanwhile()
-        parts = (references, roms, sources)
-        names: dict[Future[Any], str] = {part[name]: name for part in parts for name in cases}
-        for future in as_completed(names):
-            name = names.pop(future)
+        waiting: dict[Future[Any], str] = {future: name for name, future in references.items()}
+        waiting |= {future: name for part in (roms, sources) for (name, _), future in part.items()}
+        for future in as_completed(waiting):
+            name = waiting.pop(future)
             future.result()
             del future  # and with it what it gave
-            if name not in names.values():
-                both = roms.pop(name).result(), references.pop(name).result()
-                yield name, VariantRun(cases[name], *both, sources.pop(name).result())
+            if name not in waiting.values():
+                reference = references.pop(name).result()
+                yield (
+                    name,
+                    {
+                        model: VariantRun(
+                            models[model][name],
+                            roms.pop((name, model)).result(),
+                            reference,
+                            sources.pop((name, model)).result(),
+                        )
+                        for model in models
+                    },
+                )
     finally:
         watch.stop.set()
         pool.shutdown(wait=False, cancel_futures=True)
+
+
+def labelled(variant: str, model: str, models: Collection[str]) -> str:
+    """Name a variant, with its model where there are several."""
+    return variant if len(models) == 1 else f"{variant}, model {model}"
 
 
 def _reference(name: str, case: Case, alignment: Alignment, watch: Watch) -> Reference:
@@ -163,7 +198,7 @@ def _sources(
             raise ValidationError(f"variant {name!r}: with the inflow of 3D: {error}") from error
 
 
-def resolved(cases: Mapping[str, Case], watch: Watch) -> dict[str, Case]:
+def resolved(models: Mapping[str, Mapping[str, Case]], watch: Watch) -> dict[str, dict[str, Case]]:
     """Cases with ``inlet.kind: reference`` with the inflow of their reference instead, others as they are.
 
     Raises
@@ -171,13 +206,14 @@ def resolved(cases: Mapping[str, Case], watch: Watch) -> dict[str, Case]:
     ValidationError
         If the reference tells no inflow; else as the kind of reference raises.
     """
-    found = dict(cases)
-    for name, case in cases.items():
+    found = {model: dict(cases) for model, cases in models.items()}
+    for name, case in next(iter(models.values())).items():
         if isinstance(case.inlet, ReferenceInlet):
             alignment = kind_of(name, case).align(case)
-            driven = with_inflow_of(case, _reference(name, case, alignment, watch))
-            compare = driven.compare.model_copy(update={"matched_inflow": True})
-            found[name] = driven.model_copy(update={"compare": compare})
+            inlet = with_inflow_of(case, _reference(name, case, alignment, watch)).inlet
+            compare = case.compare.model_copy(update={"matched_inflow": True})
+            for cases in found.values():
+                cases[name] = cases[name].model_copy(update={"inlet": inlet, "compare": compare})
     return found
 
 

@@ -29,7 +29,7 @@ def cost_table(comparison: Comparison) -> Table | None:
 
 
 def _cost_row(comparison: Comparison, name: str, cost: SimulationCost) -> tuple[str, ...]:
-    two = comparison.provenance.variants[name].rom
+    two = comparison.settings(name)
     retries = f" ({cost.retries} retried)" if cost.retries else ""
     version = f"FEBio {cost.febio_version}" if cost.febio_version else "FEBio"
     return (

@@ -42,7 +42,7 @@ def not_periodic(comparison: Comparison, variant: str) -> bool:
 
 
 def _own_change(comparison: Comparison, variant: str) -> float | None:
-    return comparison.provenance.variants[variant].rom.cycle_change
+    return comparison.settings(variant).cycle_change
 
 
 def _inflow_apart(comparison: Comparison, variant: str) -> float | None:

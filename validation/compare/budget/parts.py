@@ -19,8 +19,6 @@ from validation.compare.budget.sources import Sources
 from validation.metrics.rows import Models
 from validation.metrics.statistics import rms
 
-VARIABLE = "error_budget"
-
 
 @dataclass(frozen=True)
 class Budget:
