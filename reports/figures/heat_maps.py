@@ -18,6 +18,7 @@ from matplotlib.ticker import MaxNLocator
 
 from cases.arrays import Flags, Floats
 from reports.figures.canvas import STYLE, WIDTH, svg_text
+from reports.figures.lumen_cells import cell_borders, edges_of
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.62, 0.62, 0.22, 0.42
 _GAP, _ROW_GAP = 0.10, 0.14
@@ -211,38 +212,3 @@ def _outline(axis: Axes, inches: Floats, phi: Floats) -> None:
     x, y = (np.pad(ends, ((0, 0), (0, 1)), constant_values=np.nan).ravel() for ends in (inches, phi))
     for colour, width in (("#ffffff", 1.6), ("#000000", 0.7)):
         axis.plot(x, y, color=colour, linewidth=width, solid_capstyle="projecting", clip_on=False)
-
-
-def cell_borders(x: Floats, phi: Floats, inside: Flags) -> Floats:
-    """Borders between cells that are inside and cells that are not, as straight segments.
-
-    Parameters
-    ----------
-    x, phi : ndarray, shapes (n_x + 1,), (n_phi + 1,)
-        Edges of the cells.
-    inside : ndarray of bool, shape (n_x, n_phi)
-        Which cells are inside.
-
-    Returns
-    -------
-    ndarray, shape (n, 2, 2)
-        Ends of the segments, (x, φ) each. φ is not continued around the artery: where the inside reaches
-        the first or last row, no border is drawn there.
-    """
-    across = np.argwhere(inside[1:] != inside[:-1])  # between i and i + 1
-    along = np.argwhere(inside[:, 1:] != inside[:, :-1])
-    return np.concatenate(
-        [
-            np.array([[(x[i + 1], phi[j]), (x[i + 1], phi[j + 1])] for i, j in across]).reshape(-1, 2, 2),
-            np.array([[(x[i], phi[j + 1]), (x[i + 1], phi[j + 1])] for i, j in along]).reshape(-1, 2, 2),
-        ]
-    )
-
-
-def edges_of(centres: Floats) -> Floats:
-    """Edges of cells with these centres."""
-    if centres.size == 1:
-        return np.array([centres[0] - 0.5, centres[0] + 0.5])
-    middle = (centres[1:] + centres[:-1]) / 2
-    first, last = centres[0] - (middle[0] - centres[0]), centres[-1] + (centres[-1] - middle[-1])
-    return np.concatenate([[first], middle, [last]])

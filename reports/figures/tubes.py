@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 
 from cases.arrays import Flags, Floats
 from reports.figures.canvas import STYLE, WIDTH, svg_text
-from reports.figures.heat_maps import cell_borders, colour_bar, edges_of
+from reports.figures.heat_maps import colour_bar
+from reports.figures.lumen_cells import cell_borders, edges_of
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.25, 0.75, 0.22, 0.30
 _HEIGHT, _BAR = 1.12, 0.08

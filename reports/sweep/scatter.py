@@ -16,7 +16,8 @@ from matplotlib.ticker import MaxNLocator
 from cases.arrays import Flags, Floats
 from reports.figures.canvas import STYLE, WIDTH, legend_above, svg_text
 from reports.figures.curves import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
-from reports.figures.heat_maps import edges_of, scale_colours
+from reports.figures.heat_maps import scale_colours
+from reports.figures.lumen_cells import edges_of
 from reports.sweep.amounts import steady
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.98, 0.10, 0.30, 0.62

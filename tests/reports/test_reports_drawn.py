@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from reports.figures.curves import small_multiples
-from reports.figures.heat_maps import cell_borders
+from reports.figures.lumen_cells import cell_borders
 from reports.figures.panels import Curves, PanelRow
 from reports.figures.tubes import Tube, tubes
 from reports.figures.two_processes import draw, helper
