@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 _FILTERED = ("variant", "quantity", "verdict")
 
+Shade = Literal["within", "beyond", "far", "unjudged"]
 ColumnKind = Literal["text", "prose", "number", "status", "code"]
 
 
@@ -21,9 +22,10 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Bullets:
-    """Short statements, one a line."""
+    """Short statements, one a line; `lead` sets those that a hurried reader must see."""
 
     items: tuple[str, ...]
+    lead: bool = False
 
 
 @dataclass(frozen=True)
@@ -70,6 +72,7 @@ class Table:
     """Rows of text under captioned columns; a rule separates rows that differ in column `rule_by`.
 
     Cells (row, column), counted from 0, in `marked` are set apart from the others; `mark` says what they are.
+    `shades` colour cells by how far an error is within or beyond its limit; their numbers say it too.
     """
 
     key: str
@@ -79,6 +82,11 @@ class Table:
     rule_by: int | None = None
     marked: frozenset[tuple[int, int]] = frozenset()
     mark: str = ""
+    shades: Mapping[tuple[int, int], Shade] = field(default_factory=dict)
+
+    def shade(self, row: int, column: int) -> str:
+        """Shade of a cell, "" for none."""
+        return self.shades.get((row, column), "")
 
     def marks(self, row: int, column: int) -> bool:
         """Whether a cell is set apart."""
@@ -139,11 +147,12 @@ Block = Paragraph | Bullets | Warnings | Listing | Table | Figure | Interactive
 
 @dataclass(frozen=True)
 class Section:
-    """A numbered section of the report."""
+    """A numbered section of the report; an `appendix` holds what is looked up."""
 
     key: str
     title: str
     blocks: tuple["Block | Subsection", ...]
+    appendix: bool = False
 
 
 @dataclass(frozen=True)

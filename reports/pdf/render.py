@@ -89,11 +89,13 @@ def _plain(value: Any, root: Path) -> Any:
         return displayable(value)
     if not is_dataclass(value):
         return value
-    names = [field.name for field in fields(value) if field.name not in ("drawing", "data")]
+    names = [field.name for field in fields(value) if field.name not in ("drawing", "data", "shades")]
     plain = {name: _plain(getattr(value, name), root) for name in names}
     plain["kind"] = type(value).__name__ if "kind" not in plain else plain["kind"]
     if isinstance(value, Table):
         plain["groups"], plain["rules"] = value.groups(), value.rules()
+        cells = range(len(value.columns))
+        plain["shades"] = [[value.shade(row, at) for at in cells] for row in range(len(value.rows))]
     if isinstance(value, Figure):
         (root / f"{value.key}.csv").write_text(plain.pop("csv"), encoding="utf-8")
     return plain

@@ -16,7 +16,7 @@ from reports.errors import ReportError
 _MAY_BE_ABSENT = (PROFILE_ERROR, PROFILE_ERROR_CURVE)  # where nothing flows there is no profile
 _UNREADABLE = (OSError, RuntimeError, TypeError, ValueError)  # what xarray and netCDF4 raise for broken data
 _AXES = ("time", "x", "phi", "y")
-_TEXTS = ("case", "title", "models", "baseline", "compare_time_names", "case_yaml")
+_TEXTS = ("case", "title", "models", "baseline", "compare_time_names", "case_yaml", "variant_titles")
 _NUMBERS = ("period_s", "compare_i", "compare_j", "compare_times_s")
 
 
@@ -145,14 +145,10 @@ def reduced_models(path: Path, dataset: xr.Dataset) -> tuple[str, ...]:
     ReportError
         If the attribute is no JSON list of different names.
     """
-    text = _text(path, "models", dataset.attrs["models"])
-    try:
-        names = json.loads(text)
-    except (RecursionError, ValueError) as error:
-        raise ReportError(f"{path}: models is {text[:60]!r}; a JSON list is expected") from error
-    if not isinstance(names, list) or not names or len({*map(str, names)}) < len(names):
-        raise ReportError(f"{path}: models is {text[:60]!r}; a list of different names is expected")
-    return tuple(map(str, names))
+    names = _words(path, "models", _text(path, "models", dataset.attrs["models"]))
+    if not names or len({*names}) < len(names):
+        raise ReportError(f"{path}: models is {', '.join(names) or 'empty'}; different names are expected")
+    return tuple(names)
 
 
 @dataclass(frozen=True)
@@ -163,6 +159,8 @@ class Attributes:
     ----------
     case, title, baseline, case_yaml : str
         As stored.
+    titles : dict of str to str
+        Of each variant, in words.
     period : float
         Of the cycle (s).
     i, j : tuple of int
@@ -177,6 +175,7 @@ class Attributes:
     title: str
     baseline: str
     baselines: dict[str, str]
+    titles: dict[str, str]
     case_yaml: str
     period: float
     i: tuple[int, ...]
@@ -203,12 +202,20 @@ def read_attributes(path: Path, dataset: xr.Dataset) -> Attributes:
         title=texts["title"],
         baseline=texts["baseline"],
         baselines=_baselines(path, dataset, texts["baseline"], variants),
+        titles=_titles(path, texts["variant_titles"], variants),
         case_yaml=texts["case_yaml"],
         period=_period(path, dataset),
         i=_cells(path, "compare_i", dataset.attrs["compare_i"], dataset.sizes["x"]),
         j=_cells(path, "compare_j", dataset.attrs["compare_j"], dataset.sizes["phi"]),
         times=_instants(path, dataset, texts["compare_time_names"]),
     )
+
+
+def _titles(path: Path, text: str, variants: Sequence[str]) -> dict[str, str]:
+    titles = _words(path, "variant_titles", text)
+    if len(titles) != len(variants):
+        raise ReportError(f"{path}: {len(variants)} variants, but variant_titles is {text[:60]}")
+    return dict(zip(variants, titles, strict=True))
 
 
 def _baselines(path: Path, dataset: xr.Dataset, baseline: str, variants: Sequence[str]) -> dict[str, str]:
@@ -270,10 +277,18 @@ def _period(path: Path, dataset: xr.Dataset) -> float:
 
 
 def _time_names(path: Path, text: str, count: int) -> list[str]:
-    try:
-        names = json.loads(text)
-    except (RecursionError, ValueError) as error:
-        raise ReportError(f"{path}: compare_time_names is {text[:60]!r}; a JSON list is expected") from error
-    if not isinstance(names, list) or len(names) != count or not all(isinstance(n, str) for n in names):
+    names = _words(path, "compare_time_names", text)
+    if len(names) != count:
         raise ReportError(f"{path}: {count} compare_times_s, but compare_time_names is {text[:60]}")
     return names
+
+
+def _words(path: Path, name: str, text: str) -> list[str]:
+    """Read an attribute that is a JSON list of texts."""
+    try:
+        words = json.loads(text)
+    except (RecursionError, ValueError) as error:
+        raise ReportError(f"{path}: {name} is {text[:60]!r}; a JSON list is expected") from error
+    if not isinstance(words, list) or not all(isinstance(word, str) for word in words):
+        raise ReportError(f"{path}: {name} is {text[:60]!r}; a JSON list of texts is expected")
+    return words

@@ -37,6 +37,8 @@ class Comparison:
         Name, heading, variant without calcification ("" for none), the case file's text.
     variants : tuple of str
         In the order of the case file.
+    titles : dict of str to str
+        Of each variant, in words.
     period : float
         Of the cycle (s).
     i, j : tuple of int
@@ -78,6 +80,7 @@ class Comparison:
     baseline: str
     case_yaml: str
     variants: tuple[str, ...]
+    titles: dict[str, str]
     period: float
     i: tuple[int, ...]
     j: tuple[int, ...]

@@ -8,7 +8,7 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
-from reports.blocks import Block, Figure, Interactive, Paragraph, Subsection
+from reports.blocks import Block, Figure, Paragraph, Subsection
 from reports.figures.curves import small_multiples
 from reports.figures.panels import Curves, PanelRow
 from reports.result.load import Comparison
@@ -196,12 +196,6 @@ def section(comparison: Comparison) -> Blocks:
     drawn = [name for name, part in parts.items() if part.blocks]
     told = left_out(comparison, drawn, "value over the cycle at the shown cells")
     return (
-        Interactive(
-            "curves-anywhere",
-            "curves",
-            "Any cell over the cycle",
-            "Choose a variant, a quantity and a cell; point at the curves for their values.",
-        ),
         *((Paragraph(told),) if told else ()),
         *(parts[name] for name in drawn),
     )

@@ -30,25 +30,31 @@ class Declared:
         Asked in this order before anything is composed.
     blocks : callable
         What the section of a comparison says; nothing leaves it out.
+    appendix : bool
+        Whether it holds what is looked up, behind what is read.
     """
 
     key: str
     title: str
     needs: tuple[Need, ...]
     blocks: Callable[[Comparison], Blocks]
+    appendix: bool = False
 
     def __call__(self, comparison: Comparison) -> Section | None:
         """Return the section, or None where it has nothing to say."""
         unmet = next((need for need in self.needs if not need.met(comparison)), None)
         if unmet is not None:
-            return Section(self.key, self.title, (Paragraph(unmet.told),)) if unmet.told else None
-        blocks = self.blocks(comparison)
-        return Section(self.key, self.title, blocks) if blocks else None
+            blocks: Blocks = (Paragraph(unmet.told),) if unmet.told else ()
+        else:
+            blocks = self.blocks(comparison)
+        return Section(self.key, self.title, blocks, self.appendix) if blocks else None
 
 
-def declared(key: str, title: str, *needs: Need) -> Callable[[Callable[[Comparison], Blocks]], Declared]:
+def declared(
+    key: str, title: str, *needs: Need, appendix: bool = False
+) -> Callable[[Callable[[Comparison], Blocks]], Declared]:
     """Return the decorator that makes a section of the function that gives its blocks."""
-    return partial(Declared, key, title, needs)
+    return partial(Declared, key, title, needs, appendix=appendix)
 
 
 def instants(what: str) -> Need:

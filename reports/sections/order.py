@@ -2,6 +2,7 @@
 
 from reports.sections import (
     ablation,
+    answer,
     artery,
     assumptions,
     budget,
@@ -10,6 +11,8 @@ from reports.sections import (
     dominance,
     exponents,
     maps,
+    moved,
+    overview,
     provenance,
     velocity,
     verdict,
@@ -17,6 +20,9 @@ from reports.sections import (
 from reports.sections.declaration import Declared
 
 SECTIONS: list[Declared] = [
+    answer.section,
+    overview.section,
+    moved.section,
     verdict.section,
     budget.section,
     change.section,

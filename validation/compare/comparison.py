@@ -169,6 +169,7 @@ def attributes(file: CaseFile, times: Floats) -> dict[str, Any]:
         "case": file.name,
         "title": file.title,
         "models": json.dumps(list(file.models)),
+        "variant_titles": json.dumps([case.title for case in file.variants.values()], ensure_ascii=False),
         "baseline": baseline_of(file),
         "period_s": case.inlet.period,
         "compare_i": np.array(case.compare.cells.i),

@@ -3,6 +3,7 @@
 from cases.results.provenance import ReducedModelSettings, SimulationCost
 from reports.blocks import Column, Table, numbers, prose
 from reports.result.load import Comparison
+from reports.sections.parts.models import headed
 from reports.wording.numbers import ABSENT, SPACE, rounded, with_unit
 
 
@@ -45,6 +46,26 @@ def _cost_row(comparison: Comparison, name: str, cost: SimulationCost) -> tuple[
         ABSENT if two.steps is None else str(two.steps),
         rounded(_per_cycle(comparison.period, cost, two), 2),
     )
+
+
+def cost_sentence(comparison: Comparison) -> str:
+    """Say what 3D and each model took; "" where no log tells that of 3D."""
+    of_3d = [r.reference.cost for r in comparison.provenance.variants.values() if r.reference.cost]
+    known = [c for c in of_3d if c.wall_time_s and c.simulated_s]
+    if not known:
+        return ""
+    most = max(known, key=lambda c: (c.wall_time_s or 0.0) / (c.simulated_s or 1.0))
+    cycles = (most.simulated_s or 0.0) / comparison.period
+    said = [f"3D {_duration((most.wall_time_s or 0.0) / cycles)} a cycle (as its log tells)"]
+    for model in comparison.models:
+        took = [
+            of.simulation_wall_time_s / of.cycles
+            for name in comparison.variants
+            if (of := comparison.of(model).settings(name)).simulation_wall_time_s and of.cycles
+        ]
+        if took:
+            said.append(f"{headed(comparison, model)} {_duration(max(took))}")
+    return f"Cost, of the variant that took longest: {', '.join(said)}; the machines differ."
 
 
 def _per_cycle(period: float, cost: SimulationCost, two: ReducedModelSettings) -> float | None:

@@ -1,0 +1,19 @@
+"""The reduced models of a comparison in words."""
+
+from collections.abc import Iterable
+
+from reports.result.load import Comparison
+from reports.wording.numbers import listed
+
+
+def model_words(comparison: Comparison, models: Iterable[str]) -> str:
+    """E.g. "the row model", "the row and coupled models"; "the 2D model" where there is but one."""
+    names = list(models)
+    if len(comparison.models) == 1:
+        return "the 2D model"
+    return f"the {listed(names)} model{'s' if len(names) > 1 else ''}"
+
+
+def headed(comparison: Comparison, model: str) -> str:
+    """Heading of a model's columns, and its name in a legend: its own name, or 2D for the only one."""
+    return "2D" if len(comparison.models) == 1 else model

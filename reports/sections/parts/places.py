@@ -1,0 +1,33 @@
+"""Places in millimetres and degrees, and the one that stands for the artery where one must."""
+
+import numpy as np
+
+from reports.result.load import Comparison
+from reports.wording.numbers import SPACE, fixed
+
+
+def place_words(comparison: Comparison, i: int, j: int | None = None) -> str:
+    """E.g. "x = 7.6 mm, φ = 184°"; cells are counted from 1."""
+    along = f"x{SPACE}={SPACE}{fixed(1e3 * float(comparison.fields['x'].values[i - 1]), 1)}{SPACE}mm"
+    if j is None:
+        return along
+    return f"{along}, φ{SPACE}={SPACE}{fixed(np.degrees(float(comparison.fields['phi'].values[j - 1])), 0)}°"
+
+
+def central_cell(comparison: Comparison) -> tuple[int, int]:
+    """Cell in the middle of what is calcified in most variants, or of the artery; counted from 1."""
+    often = comparison.fields["calcified"].values.astype(int).sum(axis=0)
+    inside = often == often.max()
+    i, j = np.nonzero(inside)
+    x, phi = comparison.fields["x"].values, comparison.fields["phi"].values
+    turned = np.exp(1j * phi[j])
+    middle = turned.mean() if abs(turned.mean()) > 1e-6 else complex(np.exp(1j * phi[0]))
+    away = np.abs(x[i] - x[i].mean()) / np.ptp(x) + np.abs(np.angle(turned / middle)) / np.pi
+    nearest = int(np.argmin(away))
+    return int(i[nearest]) + 1, int(j[nearest]) + 1
+
+
+def in_calcification(comparison: Comparison, i: int, j: int | None) -> str:
+    """Say of which variants a place is calcified; "" where of none."""
+    names = [name for name in comparison.variants if comparison.calcified(name, i, j)]
+    return f", calcified in {' and '.join(names)}" if names else ""
