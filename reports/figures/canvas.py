@@ -40,13 +40,13 @@ def legend_above(figure: Figure, handles: Sequence[Artist], left: float) -> None
     )
 
 
-def svg_text(figure: Figure) -> str:
-    """Return the figure as SVG; the same text for the same figure."""
+def svg_text(figure: Figure, dpi: int = _RASTER_DPI) -> str:
+    """Return the figure as SVG, what is drawn as an image at ``dpi``; the same text for the same figure."""
     with io.StringIO() as text:
         figure.savefig(
             text,
             format="svg",
-            dpi=_RASTER_DPI,
+            dpi=dpi,
             metadata={"Date": None, "Creator": None, "Format": None, "Type": None},
         )
         return text.getvalue()

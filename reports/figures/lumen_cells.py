@@ -44,3 +44,11 @@ def runs(inside: Flags) -> list[tuple[int, int]]:
     """First number and number behind the last of each run of True, of a flag array of shape (n,)."""
     steps = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]])))
     return [(int(first), int(last)) for first, last in steps.reshape(-1, 2)]
+
+
+def uniform(values: Floats, tolerance: float) -> float | None:
+    """Mean of the finite values if they differ by less than this, None otherwise and where there are none."""
+    finite = values[np.isfinite(values)]
+    if finite.size == 0 or float(np.ptp(finite)) >= tolerance:
+        return None
+    return float(finite.mean())

@@ -201,16 +201,28 @@ def band(axis: Axes, panels: Sequence[Panel], low: float, high: float, colour: s
     )
 
 
-def ordinates(axis: Axes, panels: Sequence[Panel], label: str, most: int = 4, grid: bool = True) -> None:
-    """Write numbers and a label left of the first panel, and draw lines through all at the numbers."""
+def ordinates(
+    axis: Axes,
+    panels: Sequence[Panel],
+    label: str,
+    most: int | Sequence[float] = 4,
+    grid: bool = True,
+    aside: float = 0.48,
+) -> None:
+    """Write numbers and a label left of the first panel, and draw lines through all at the numbers.
+
+    ``most`` is their largest count, or the numbers themselves; those outside the panel are left out. The
+    label stands ``aside`` (inches) or farther where the numbers are long.
+    """
     first = panels[0]
-    marks = ticks(*first.y, most)
+    low, high = first.y
+    marks = ticks(low, high, most) if isinstance(most, int) else [m for m in most if low <= m <= high]
     if grid:
         across_panels(axis, panels, marks)
     numbers = numerals(marks)
-    aside = min(max(0.48, 0.19 + _LETTER * max(map(len, numbers), default=0)), first.left - 0.08)
+    aside = min(max(aside, 0.19 + _LETTER * max(map(len, numbers), default=0)), first.left - 0.08)
     for tick, words in zip(marks, numbers, strict=True):
-        axis.text(first.left - 0.05, float(first.up(tick)), words, ha="right", va="center", fontsize=6.5)
+        axis.text(first.left - 0.05, float(first.up(tick)), words, ha="right", va="center", fontsize=SMALL)
     axis.text(
         first.left - aside,
         first.bottom + first.height / 2,
@@ -231,7 +243,7 @@ def abscissas(
         shown = ticks(*panel.x, most) if marks is None else marks
         for tick, words in zip(shown, numerals(shown), strict=True):
             axis.text(
-                float(panel.across(tick)), panel.bottom - 0.05, words, ha="center", va="top", fontsize=6.5
+                float(panel.across(tick)), panel.bottom - 0.05, words, ha="center", va="top", fontsize=SMALL
             )
         up_panels(
             axis,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib import colormaps, style
 from matplotlib.axes import Axes
-from matplotlib.colors import Normalize
+from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
@@ -16,7 +16,6 @@ from matplotlib.ticker import MaxNLocator
 from cases.arrays import Flags, Floats
 from reports.figures.canvas import STYLE, WIDTH, legend_above, svg_text
 from reports.figures.curves import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
-from reports.figures.heat_maps import scale_colours
 from reports.figures.lumen_cells import edges_of
 from reports.sweep.amounts import steady
 
@@ -216,9 +215,26 @@ def _norm(values: Floats) -> Normalize:
     return Normalize(low, high)
 
 
+def _fill(bar: Axes, norm: Normalize, colours: Colormap) -> None:
+    """Fill an axis with the colours of a scale, its values on the right."""
+    low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
+    bar.imshow(
+        np.linspace(low, high, 256)[:, None],
+        extent=(0.0, 1.0, low, high),
+        origin="lower",
+        aspect="auto",
+        norm=norm,
+        cmap=colours,
+        interpolation="none",
+    )
+    bar.yaxis.tick_right()
+    bar.yaxis.set_label_position("right")
+    bar.set_xticks([])
+
+
 def _bar(axis: Axes, norm: Normalize, row: Ordinate) -> None:
     low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
-    scale_colours(axis, norm, colormaps["viridis"])
+    _fill(axis, norm, colormaps["viridis"])
     axis.yaxis.set_major_locator(MaxNLocator(5))
     axis.set_ylabel(wrapped(row.label, 1.75), fontsize=7.0)
     for limit in _limits(row):

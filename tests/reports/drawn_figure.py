@@ -17,9 +17,9 @@ def drawn(monkeypatch: pytest.MonkeyPatch, module: ModuleType, drawing: Callable
     """Make a drawing of a module and return its figure."""
     kept: list[Figure] = []
 
-    def keep(figure: Figure) -> str:
+    def keep(figure: Figure, *dpi: int) -> str:
         kept.append(figure)
-        return svg_text(figure)
+        return svg_text(figure, *dpi)
 
     with monkeypatch.context() as patched:
         patched.setattr(module, "svg_text", keep)

@@ -3,7 +3,10 @@ from functools import partial
 
 import numpy as np
 import pytest
+from drawn_figure import drawn
+from matplotlib.collections import QuadMesh
 
+from reports.figures import tubes as tubes_module
 from reports.figures.curves import small_multiples
 from reports.figures.lumen_cells import cell_borders
 from reports.figures.panels import Curves, PanelRow
@@ -73,3 +76,18 @@ def test_a_lumen_is_drawn_the_same_each_time_even_if_all_alike() -> None:
     drawings = {tubes(x, phi, 3.1, ("3D", "2D"), [("none", (one, one))], "R (mm)") for _ in range(2)}
     assert len(drawings) == 1
     assert "<image" in drawings.pop()
+
+
+def test_changes_of_a_lumen_are_coloured_around_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+    x, phi = np.linspace(0.5, 9.5, 10), np.radians(np.arange(15.0, 360, 30))
+    change = np.full((10, 12), -0.2)
+    tube = Tube(change + 2.5, change, np.zeros(change.shape, dtype=bool))
+    figure = drawn(
+        monkeypatch, tubes_module, lambda: tubes(x, phi, 3.1, ("3D",), [("ring", (tube,))], "ΔR", change=True)
+    )
+    bar = next(image for image in figure.axes[0].images)
+    assert bar.norm.vmin == -0.2
+    assert bar.norm.vmax == 0.2
+    facets = [mesh.get_facecolor() for mesh in figure.axes[0].collections if isinstance(mesh, QuadMesh)]
+    assert sum(map(len, facets)) == 9 * 12, "every facet between neighbouring centres, around and along"
+    assert all((colours[:, 2] > colours[:, 0]).all() for colours in facets), "narrower is blue"
