@@ -1,87 +1,97 @@
 """Section of the exponent of the velocity profile closest to 3D, beside that of the 2D model."""
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from cases.arrays import Floats
-from reports.blocks import Figure, Interactive, Paragraph, Subsection
+from reports.blocks import Figure, Interactive, Paragraph
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
-from reports.sections.parts import error_curves
-from reports.sections.parts.lumen import cells_csv, centres, field, outlined
+from reports.sections.parts.lumen import cells_header, cells_text
+from reports.sections.parts.models import headed
 from reports.sections.parts.page_data import digits, pack
+from reports.sections.parts.places import place_words
 from reports.sections.parts.stated import mostly, stated_variants
 from reports.wording.numbers import SPACE, listed, percent, span, unsigned
-from reports.wording.words import spot, top_to_bottom
+from reports.wording.words import instant
 
 
-def _row(data: xr.Dataset, label: str, limits: tuple[float, float] | None) -> MapRow:
-    both = tuple(field(data, f"{model}_profile_exponent") for model in ("reference", "rom"))
-    return MapRow(
-        label,
-        (
-            Maps(both, "γ", limits=limits),
-            Maps((field(data, "reference_profile_error", 100.0),), "error of the fit (%)"),
-        ),
-    )
+def _exponents(comparison: Comparison, variant: str, model: str) -> Floats:
+    """γ of a model at the first named instant, (x, phi)."""
+    data = comparison.maps[f"{model}_profile_exponent"].sel(variant=variant).isel(time=0)
+    return np.asarray(data.values, dtype=float)
 
 
-def _exponents(data: xr.Dataset) -> Floats:
-    both = [field(data, f"{model}_profile_exponent").ravel() for model in ("reference", "rom")]
-    values = np.concatenate(both)
-    return values[np.isfinite(values)]
-
-
-def _worst_fit(comparison: Comparison, data: xr.Dataset) -> str:
-    errors = field(data, "reference_profile_error")
+def _worst_fit(comparison: Comparison, variants: Sequence[str]) -> str:
+    """Say how far the closest profile is from 3D at the named instants."""
+    errors = comparison.maps["reference_profile_error"].sel(variant=list(variants)).values.astype(float)
     if not np.isfinite(errors).any():
         return ""
-    state, i, j = np.unravel_index(int(np.nanargmax(errors)), errors.shape)
+    at = np.unravel_index(int(np.nanargmax(errors)), errors.shape)
     median = unsigned(percent(float(np.nanmedian(errors))))
-    largest = unsigned(percent(float(errors[state, i, j])))
-    where = spot(int(i) + 1, int(j) + 1, comparison.times[int(state)][1])
-    return f" The closest profile is off 3D by {median} in the median, by {largest} at most ({where})."
+    largest = unsigned(percent(float(errors[at])))
+    where = place_words(comparison, int(at[2]) + 1, int(at[3]) + 1)
+    when = instant(*comparison.times[int(at[1])])
+    return (
+        f" The closest profile is off 3D by {median} in the median, by {largest} at most "
+        f"({variants[int(at[0])]}, {where}, {when})."
+    )
 
 
-def _spans(data: xr.Dataset) -> str:
-    spans = []
-    for model, name in (("reference", "3D"), ("rom", "2D")):
-        values = field(data, f"{model}_profile_exponent")
+def _spans(comparison: Comparison, variants: Sequence[str]) -> str:
+    """Say between what exponents each model is."""
+    said = []
+    for model in ("reference", *comparison.models):
+        view, name = (comparison, model) if model == "reference" else (comparison.of(model), "rom")
+        values = np.concatenate([_exponents(view, variant, name).ravel() for variant in variants])
         values = values[np.isfinite(values)]
         if values.size:
-            spans.append(f"{span(float(values.min()), float(values.max()), 2)} in {name}")
-    return f"γ is {' and '.join(spans)}" if spans else "γ is nowhere finite"
+            words = "3D" if model == "reference" else headed(comparison, model)
+            said.append(f"{span(float(values.min()), float(values.max()), 2)} in {words}")
+    return f"γ is {listed(said)}" if said else "γ is nowhere finite"
 
 
-def _figure(comparison: Comparison, variant: str, key: str) -> Figure:
-    data = comparison.maps.sel(variant=variant)
-    found = _exponents(data)
-    limits = (float(found.min()), float(found.max())) if found.size else None
-    states = [data.isel(time=k) for k in range(len(comparison.times))]
-    when = top_to_bottom(comparison.times)
-    summary = f"{_spans(data)}.{_worst_fit(comparison, data)}"
-    instants = list(zip((t for _, t in comparison.times), states, strict=True))
-    columns = ("rom_profile_exponent", "reference_profile_exponent", "reference_profile_error")
+def _figure(comparison: Comparison, variants: Sequence[str]) -> Figure:
+    lines = [("3D", [_exponents(comparison, name, "reference") for name in variants])]
+    for model in comparison.models:
+        view = comparison.of(model)
+        lines.append((headed(comparison, model), [_exponents(view, name, "rom") for name in variants]))
+    values = np.concatenate([each.ravel() for _, of in lines for each in of])
+    values = values[np.isfinite(values)]
+    limits = (float(values.min()), float(values.max())) if values.size else None
+    shown = comparison.maps.sel(variant=list(variants)).isel(time=0)
+    when = instant(*comparison.times[0])
+    summary = f"{_spans(comparison, variants)}.{_worst_fit(comparison, variants)}"
     return Figure(
-        key=key,
-        caption=f"Variant {variant}, {when}: exponent γ of the profile closest to "
-        f"3D, exponent of the 2D model, and how far the closest profile still is from 3D. {summary}"
-        f"{outlined(data)}",
-        alt=f"Maps over x and φ of the exponent closest to 3D, of the 2D exponent and of the error of the "
-        f"closest profile, variant {variant}, {when}. {summary}",
+        key="exponents-figure",
+        caption=f"Exponent γ of the profile closest to 3D, and that of 2D, at {when}. {summary}",
+        alt=f"Maps over x and φ of the exponent closest to 3D and of the 2D exponent at {when}. {summary}",
         drawing=partial(
             heat_maps,
-            *centres(data),
-            ("3D: closest γ", "2D: γ", "3D: error of the closest profile"),
-            [_row(state, f"t = {t:.3f} s", limits) for t, state in instants],
-            data["calcified"].values > 0,
+            1e3 * shown["x"].values,
+            np.degrees(shown["phi"].values),
+            [comparison.titles[name] for name in variants],
+            [MapRow(label, (Maps(tuple(of), "γ", limits=limits),)) for label, of in lines],
+            shown["calcified"].values > 0,
+            "framed: calcified",
         ),
-        csv=cells_csv(instants, columns),
+        csv=_csv(comparison, variants),
     )
+
+
+def _csv(comparison: Comparison, variants: Sequence[str]) -> str:
+    names = ("reference_profile_exponent", "rom_profile_exponent", "reference_profile_error")
+    lines = (
+        cells_text(t, comparison.of(model).maps.sel(variant=name).isel(time=k), names, (name, model))
+        for name in variants
+        for model in comparison.models
+        for k, (_, t) in enumerate(comparison.times[:1])
+    )
+    return "".join((cells_header(("variant", "model"), names), *lines))
 
 
 @declared("exponents", "Closest γ", instants("maps"))
@@ -116,17 +126,7 @@ def section(comparison: Comparison) -> Blocks:
         *((two_modes,) if with_modes else ()),
         *told,
         *((any_cell,) if shown else ()),
-        *(
-            Subsection(
-                f"exponents-{k}",
-                f"Variant {name}",
-                (
-                    *error_curves.figures(comparison, name, f"exponents-{k}-errors"),
-                    _figure(comparison, name, f"exponents-{k}-figure"),
-                ),
-            )
-            for k, name in shown
-        ),
+        *((_figure(comparison, [name for _, name in shown]),) if shown else ()),
     )
 
 
