@@ -22,7 +22,7 @@ function choice(place, label, options, changed, value = 0) {
   list.value = value;
   list.addEventListener("change", changed);
   place.append(labelled(label, list));
-  return { get value() { return Number(list.value); }, list };
+  return { get value() { return Number(list.value); }, set value(next) { list.value = next; } };
 }
 
 function slider(place, label, most, value, words, changed) {
@@ -38,36 +38,5 @@ function slider(place, label, most, value, words, changed) {
   const box = labelled(label, input, output);
   box.classList.add("wide");
   place.append(box);
-  return {
-    get value() { return Number(input.value); },
-    set value(next) { input.value = next; tell(); },
-    get disabled() { return input.disabled; },
-    set disabled(is) { input.disabled = is; box.classList.toggle("off", is); },
-  };
-}
-
-// A slider over the cycle's states with a button that lets them run.
-function timeSlider(place, changed) {
-  const start = page.named.length ? page.named[0].state : 0;
-  const time = slider(place, "time", count.time - 1, start, moment, changed);
-  const button = element("button", { type: "button" }, "Play");
-  let timer = null;
-  button.addEventListener("click", () => {
-    if (timer) timer = clearInterval(timer);
-    else timer = setInterval(() => { time.value = (time.value + 1) % count.time; changed(); }, 250);
-    button.textContent = timer ? "Stop" : "Play";
-  });
-  place.append(button);
-  return time;
-}
-
-// Draws one after the other, and only the newest wish of those that came meanwhile.
-function latest(draw) {
-  let running = false, again = false;
-  return async function run() {
-    if (running) { again = true; return; }
-    running = true;
-    do { again = false; await draw(); } while (again);
-    running = false;
-  };
+  return { get value() { return Number(input.value); }, set value(next) { input.value = next; tell(); } };
 }

@@ -1,49 +1,40 @@
-// Both models over the cycle at any cell, their difference below.
+// Both models over the cycle at the chosen place, their difference below.
 function curves(host) {
-  const { controls, place, words } = frame(host);
-  const names = Object.keys(page.fields);
-  const run = () => drawn();
-  const variant = choice(controls, "variant", page.variants, run, page.variants.length - 1);
-  const quantity = choice(controls, "quantity", names.map((name) => page.fields[name].label), run, names.indexOf("radius"));
-  const i = slider(controls, "cell i", count.x - 1, page.i[Math.floor(page.i.length / 2)] - 1,
-    (k) => `i = ${k + 1}, x = ${number(page.x[k], 3)} mm`, run);
-  const j = slider(controls, "row j", count.phi - 1, page.j[page.j.length - 1] - 1,
-    (k) => `j = ${k + 1}, φ = ${page.phi[k].toFixed(0)}°`, run);
-  const drawn = drawnWhenSeen(place, async () => {
-    const field = page.fields[names[quantity.value]];
-    const onCells = isOnCells(field);
-    j.disabled = !onCells;
-    const models = await bothModels(field, variant.value);
-    const calcified = await unpack(page.calcified[variant.value]);
-    const at = (state) => (onCells ? cellAt(state, i.value, j.value) : sectionAt(state, i.value));
-    const reference = page.time.map((_, state) => models.reference[at(state)]);
-    const rom = page.time.map((_, state) => models.rom[at(state)]);
-    const difference = rom.map((value, state) => field.difference_factor * (value - reference[state]));
-    plot(place, curveTraces(field, reference, rom, difference), layoutOf(place, 460, {
-      hovermode: "x unified", showlegend: true, legend: { orientation: "h", x: 0, y: 1.14 },
-      xaxis: axisOf("time into the cycle (s)", { anchor: "y2", hoverformat: ".3f", range: [-0.01, 1.01].map((share) => share * page.time[count.time - 1]) }),
-      yaxis: axisOf(named(field.symbol, field.unit), { domain: [0.4, 1] }),
-      yaxis2: axisOf(named("2D − 3D", field.difference_unit), { domain: [0, 0.28] }),
-      shapes: page.named.map((entry) => ({ type: "line", xref: "x", yref: "paper", y0: 0, y1: 1,
-        x0: page.time[entry.state], x1: page.time[entry.state], line: { color: css("--quiet"), width: 1, dash: "dot" } })),
-    }));
-    const sizes = difference.map((value) => (Number.isFinite(value) ? Math.abs(value) : -1));
-    const worst = sizes.indexOf(Math.max(...sizes));
-    const inside = onCells && calcified[i.value * count.phi + j.value] ? " This cell is calcified." : "";
-    words.textContent = `${field.label}, variant ${page.variants[variant.value]}: farthest apart at ${moment(worst)}: `
-      + `3D ${withUnit(number(reference[worst]), field.unit)}, 2D ${withUnit(number(rom[worst]), field.unit)}, `
-      + `2D − 3D = ${withUnit(signed(difference[worst]), field.difference_unit)}.${inside}`;
-  });
+  const { place, words } = frame(host);
+  followed(place, words);
 }
 
-function curveTraces(field, reference, rom, difference) {
-  const said = (name, unit) => `${name} %{y:.4~g}${unit ? ` ${unit}` : ""}<extra></extra>`;
-  return [
-    { x: page.time, y: reference, name: "3D", mode: "markers", marker: { color: css("--reference"), size: 6 },
-      hovertemplate: said("3D", field.unit) },
-    { x: page.time, y: rom, name: "2D", mode: "lines", line: { color: css("--rom"), width: 2.5 },
-      hovertemplate: said("2D", field.unit) },
-    { x: page.time, y: difference, yaxis: "y2", name: "2D − 3D", mode: "lines",
-      line: { color: css("--difference"), width: 2, dash: "dash" }, hovertemplate: said("2D − 3D", field.difference_unit) },
-  ];
+function followed(place, words) {
+  const wish = drawnWhenSeen(place, async () => drawCurves(place, words));
+  follow(KEYS, wish);
+  return wish;
+}
+
+async function drawCurves(place, words) {
+  const field = chosenField();
+  const models = await bothModels(field);
+  const at = (state) => (isOnCells(field) ? cellAt(state, chosen.i, chosen.j) : sectionAt(state, chosen.i));
+  const reference = page.time.map((_, state) => models.reference[at(state)]);
+  const rom = page.time.map((_, state) => models.rom[at(state)]);
+  const difference = rom.map((value, state) => field.difference_factor * (value - reference[state]));
+  const two = modelLabel(), apart = `${two} − 3D`;
+  const lines = [
+    { name: "3D", panel: 0, y: reference, colour: "var(--reference)", kind: "points" },
+    { name: two, panel: 0, y: rom, colour: "var(--rom)", kind: "line" },
+    { name: apart, panel: 1, y: difference, colour: "var(--difference)", kind: "line", dash: true },
+  ].map((line) => ({ ...line, x: page.time }));
+  const told = (k) => [moment(k), `3D ${withUnit(number(reference[k]), field.unit)}`, `${two} ${withUnit(number(rom[k]), field.unit)}`,
+    `${apart} ${withUnit(signed(difference[k]), field.difference_unit)}`];
+  const last = page.time[count.time - 1];
+  chart(place, {
+    height: 420, lines, told, chosenAt: (k) => chooseNow({ time: k }), marks: page.named.map((entry) => page.time[entry.state]), now: page.time[chosen.time],
+    x: { title: "time into the cycle (s)", range: [-0.01 * last, 1.01 * last] },
+    panels: [{ title: named(field.symbol, field.unit), share: 0.66 }, { title: named(apart, field.difference_unit), share: 0.34 }],
+  });
+  const sizes = difference.map((value) => (Number.isFinite(value) ? Math.abs(value) : -1));
+  const worst = sizes.indexOf(Math.max(...sizes));
+  const where = isOnCells(field) ? placeWords(chosen.i, chosen.j) : `section at x = ${page.x[chosen.i].toFixed(1)} mm`;
+  const values = (k) => `${told(k).slice(1, 3).join(", ")}, ${apart} = ${withUnit(signed(difference[k]), field.difference_unit)}`;
+  words.textContent = `${field.label}, variant ${page.variants[chosen.variant]}, ${where}. At ${moment(chosen.time)}: ${values(chosen.time)}. `
+    + `Farthest apart at ${moment(worst)}: ${values(worst)}.`;
 }

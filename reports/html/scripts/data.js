@@ -2,25 +2,35 @@
 const page = JSON.parse(document.getElementById("page-data").textContent);
 const unpacked = new Map();
 
-// What packed.py made: differences along each axis, low and high bytes apart, zlib, base 64.
+// What page_data.py packed: differences along each axis, low and high bytes apart, zlib, base 64.
 function unpack(packed) {
-  if (!unpacked.has(packed)) unpacked.set(packed, inflate(packed));
+  if (!unpacked.has(packed)) unpacked.set(packed, numbersOf(packed));
   return unpacked.get(packed);
 }
 
-async function inflate({ shape, low, step, data }) {
-  const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const octets = new Uint8Array(await new Response(stream).arrayBuffer());
+async function inflated(text) {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+}
+
+const unpackedJson = async (text) => JSON.parse(new TextDecoder().decode(await inflated(text)));
+
+async function numbersOf({ shape, low, step, data }) {
+  const octets = new Uint8Array(await inflated(data));
   const count = octets.length / 2;
   const whole = new Uint16Array(count);
   for (let k = 0; k < count; k++) whole[k] = octets[k] | (octets[k + count] << 8);
   let stride = 1;
   for (const size of [...shape].reverse()) {
-    for (let k = 0; k < count; k++) if (Math.floor(k / stride) % size) whole[k] += whole[k - stride];
-    stride *= size;
+    const block = stride * size;
+    for (let start = 0; start < count; start += block) {
+      for (let k = start + stride; k < start + block; k++) whole[k] += whole[k - stride];
+    }
+    stride = block;
   }
-  return Float64Array.from(whole, (value) => (value === 65535 ? NaN : low + step * value));
+  const values = new Float64Array(count);
+  for (let k = 0; k < count; k++) values[k] = whole[k] === 65535 ? NaN : low + step * whole[k];
+  return values;
 }
 
 function number(value, digits = 4) {

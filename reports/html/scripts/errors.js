@@ -1,30 +1,29 @@
-// How far the closest profile with exponent γ is from 3D, at the shown cells and instants.
+// How far the closest profile with exponent γ is from 3D, at the shown cell and instant nearest to the chosen ones.
 function errors(host) {
-  const { controls, place, words } = frame(host);
+  const { place, words } = frame(host);
   const { gamma, values } = page.errors;
-  const run = () => drawn();
-  const variant = choice(controls, "variant", page.variants, run, page.variants.length - 1);
-  const time = choice(controls, "time", page.named.map((entry) => moment(entry.state)), run);
-  const i = choice(controls, "cell i", page.i, run, Math.floor(page.i.length / 2));
-  const j = choice(controls, "row j", page.j, run, page.j.length - 1);
-  const drawn = drawnWhenSeen(place, async () => {
-    const all = await unpack(values[variant.value]);
-    const start = ((time.value * page.i.length + i.value) * page.j.length + j.value) * gamma.length;
+  const wish = drawnWhenSeen(place, async () => {
+    const all = await unpack(values[chosen.variant]);
+    const instant = nearest(page.named.map((entry) => page.time[entry.state]), page.time[chosen.time]);
+    const [i, j] = shownCell();
+    const start = ((instant * page.i.length + i) * page.j.length + j) * gamma.length;
     const error = gamma.map((_, k) => all[start + k]);
-    const field = page.fields.profile_exponent;
-    const models = await bothModels(field, variant.value);
-    const at = cellAt(page.named[time.value].state, page.i[i.value] - 1, page.j[j.value] - 1);
-    const marks = [["closest to 3D", models.reference[at], css("--reference")], ["2D", models.rom[at], css("--rom")]];
-    plot(place, [
-      { x: gamma, y: error, name: "error against 3D", mode: "lines", line: { color: css("--reference"), width: 2 },
-        hovertemplate: "γ = %{x:.3~g}: error %{y:.3~g} %<extra></extra>" },
-      ...marks.map(([name, value, color]) => ({ x: [value, value], y: [0, Math.max(...error.filter(Number.isFinite), 0)],
-        name: `γ ${name}`, mode: "lines", line: { color, width: 1.5, dash: "dash" }, hovertemplate: `γ ${name}: ${number(value, 3)}<extra></extra>` })),
-    ], layoutOf(place, 340, {
-      hovermode: "closest", showlegend: true, legend: { orientation: "h", x: 0, y: 1.18 },
-      xaxis: axisOf("exponent γ (–)", { type: "log" }), yaxis: axisOf("error (%)", { rangemode: "tozero" }),
-    }));
-    words.textContent = `Variant ${page.variants[variant.value]}, i = ${page.i[i.value]}, j = ${page.j[j.value]}, `
-      + `${moment(page.named[time.value].state)}: γ closest to 3D ${number(marks[0][1], 3)}, of 2D ${number(marks[1][1], 3)}.`;
+    const models = await bothModels(page.fields.profile_exponent);
+    const at = cellAt(page.named[instant].state, page.i[i] - 1, page.j[j] - 1);
+    const two = modelLabel();
+    const marks = [["closest to 3D", models.reference[at], "var(--reference)"], [`of ${two}`, models.rom[at], "var(--rom)"]];
+    const [, most] = extent([error]);
+    chart(place, {
+      height: 320, x: { title: "exponent γ (–)", range: [gamma[0], gamma[gamma.length - 1]], log: true },
+      panels: [{ title: "error (%)", share: 1, low: 0, high: 1.05 * most }],
+      lines: [
+        { name: "error against 3D", panel: 0, x: gamma, y: error, colour: "var(--reference)", kind: "line" },
+        ...marks.filter(([, value]) => Number.isFinite(value)).map(([name, value, colour]) => ({ name: `γ ${name}`, panel: 0, x: [value, value], y: [0, most], colour, kind: "line", dash: true })),
+      ],
+      told: (k, n) => (n ? [`γ ${marks[n - 1][0]}: ${number(marks[n - 1][1], 3)}`] : [`γ = ${number(gamma[k], 3)}: error ${number(error[k], 3)} %`]),
+    });
+    words.textContent = `Variant ${page.variants[chosen.variant]}, ${placeWords(page.i[i] - 1, page.j[j] - 1)} (the shown cell nearest to the chosen place), `
+      + `${moment(page.named[instant].state)}: γ closest to 3D ${number(marks[0][1], 3)}, of ${two} ${number(marks[1][1], 3)}.`;
   });
+  follow(["variant", "model", "time", "i", "j"], wish);
 }

@@ -1,46 +1,59 @@
-// The unrolled lumen at every state: 3D, 2D and their difference.
+// The unrolled lumen at the chosen time: 3D, 2D and their difference; a click chooses a place and opens its curves.
 function maps(host) {
   const { controls, place, words } = frame(host);
-  const names = Object.keys(page.fields).filter((name) => isOnCells(page.fields[name]));
-  const run = () => drawn();
-  const variant = choice(controls, "variant", page.variants, run, page.variants.length - 1);
-  const quantity = choice(controls, "quantity", names.map((name) => page.fields[name].label), run, names.indexOf("radius"));
-  const scale = choice(controls, "colours", ["of this instant", "of the whole cycle"], run);
-  const time = timeSlider(controls, run);
-  const drawn = drawnWhenSeen(place, async () => {
-    const field = page.fields[names[quantity.value]];
-    const models = await bothModels(field, variant.value);
-    const inside = await unpack(page.calcified[variant.value]);
+  const canvas = element("canvas", { "aria-hidden": "true" });
+  place.append(canvas);
+  const scale = choice(controls, "colours", ["of this instant", "of the whole cycle"], () => wish());
+  let told = () => null;
+  const wish = drawnWhenSeen(place, async () => {
+    const field = mapField();
+    const models = await bothModels(field);
     const size = count.x * count.phi;
     const difference = models.rom.map((value, k) => field.difference_factor * (value - models.reference[k]));
-    const now = (values) => values.subarray(time.value * size, (time.value + 1) * size);
+    const now = (values) => values.subarray(chosen.time * size, (chosen.time + 1) * size);
     const scaled = scale.value ? (values) => values : now;
     const [low, high] = extent([scaled(models.reference), scaled(models.rom)]);
     const most = Math.max(...extent([scaled(difference)]).map(Math.abs)) || 1;
+    const two = modelLabel();
     const panels = [
-      { title: "3D", values: now(models.reference), unit: field.unit, low, high, colours: "Viridis" },
-      { title: "2D", values: now(models.rom), unit: field.unit, low, high, colours: "Viridis" },
-      { title: "2D − 3D", values: now(difference), unit: field.difference_unit, low: -most, high: most, colours: DIVERGING },
+      { title: "3D", values: now(models.reference), unit: field.unit, symbol: field.symbol, low, high, colours: VIRIDIS },
+      { title: two, values: now(models.rom), unit: field.unit, symbol: field.symbol, low, high, colours: VIRIDIS },
+      { title: `${two} − 3D`, values: now(difference), unit: field.difference_unit, symbol: `${two} − 3D`, low: -most, high: most, colours: DIVERGING },
     ];
-    const narrow = isNarrow(place);
-    plot(place, panels.flatMap((panel, k) => mapTraces(panel, k, field, inside, narrow)),
-      mapLayout(place, panels, narrow));
-    const worst = largestAt(now(difference));
-    words.textContent = worst === null ? `${moment(time.value)}: nowhere finite.`
-      : `${moment(time.value)}: farthest apart at i = ${Math.floor(worst / count.phi) + 1}, j = ${(worst % count.phi) + 1}: `
-      + `3D ${withUnit(number(now(models.reference)[worst]), field.unit)}, 2D ${withUnit(number(now(models.rom)[worst]), field.unit)}, `
-      + `2D − 3D = ${withUnit(signed(now(difference)[worst]), field.difference_unit)}.`;
+    const cellUnder = drawMaps(canvas, place.clientWidth, panels, await unpack(page.calcified[chosen.variant]));
+    place.drawn = panels;
+    const values = (k) => panels.map((panel) => `${panel.title} ${withUnit(number(panel.values[k]), panel.unit)}`);
+    told = (event) => {
+      const cell = cellUnder(event);
+      return cell && { cell, lines: [placeWords(...cell), ...values(cell[0] * count.phi + cell[1])] };
+    };
+    const worst = largestAt(panels[2].values);
+    const here = `${field.label}, variant ${page.variants[chosen.variant]}, ${moment(chosen.time)}`;
+    const said = (k) => `at ${placeWords(Math.floor(k / count.phi), k % count.phi)}: ${values(k).join(", ")}`;
+    words.textContent = worst === null ? `${here}: nowhere finite.`
+      : `${here}. Ringed, ${said(chosen.i * count.phi + chosen.j)}. Farthest apart ${said(worst)}.`;
   });
+  pointed(place, canvas, (event) => told(event)?.lines ?? null);
+  opensCurves(host, canvas, (event) => told(event)?.cell);
+  follow(KEYS, wish);
 }
 
-function extent(arrays) {
-  let low = Infinity, high = -Infinity;
-  for (const values of arrays) for (const value of values) {
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
-  if (low > high) return [0, 1];
-  return high - low > 1e-6 * Math.max(Math.abs(low), Math.abs(high)) ? [low, high] : [low - 0.05 * Math.abs(low || 1), high + 0.05 * Math.abs(high || 1)];
+// The chosen quantity, or the radius where that one has no values around the section.
+const mapField = () => (isOnCells(chosenField()) ? chosenField() : page.fields.radius);
+
+// Below a picture, the curves of a place that was clicked there.
+function opensCurves(host, target, cellOf) {
+  const words = element("p", { className: "readout" });
+  const below = element("div", { className: "plot", role: "figure", "aria-label": "Curves over the cycle at the chosen place" });
+  const fold = element("details", {}, element("summary", {}, "Curves over the cycle at the chosen place"), below, words);
+  host.append(fold);
+  followed(below, words);
+  target.addEventListener("click", (event) => {
+    const cell = cellOf(event);
+    if (!cell) return;
+    fold.open = true;
+    chooseNow({ i: cell[0], j: cell[1] });
+  });
 }
 
 function largestAt(values) {
@@ -51,34 +64,126 @@ function largestAt(values) {
   return found;
 }
 
-const rows = (values) => page.phi.map((_, j) => page.x.map((_, i) => values[i * count.phi + j]));
-
-function mapTraces(panel, k, field, inside, narrow) {
-  const axes = { x: page.x, y: page.phi, xaxis: `x${k + 1}`, yaxis: `y${k + 1}` };
-  const unit = panel.unit ? ` ${panel.unit}` : "";
-  const bar = {
-    title: { text: named(panel.title === "2D − 3D" ? panel.title : field.symbol, panel.unit), side: "right" }, thickness: 12,
-    x: narrow ? 1.01 : [0, 0.6, 1][k] + 0.005, xpad: 2, y: narrow ? [0.84, 0.5, 0.16][k] : 0.5, len: narrow ? 0.3 : 1, outlinewidth: 0,
-  };
-  const cells = { ...axes, type: "heatmap", z: rows(panel.values), zmin: panel.low, zmax: panel.high, colorscale: panel.colours,
-    showscale: k > 0 || narrow, colorbar: bar, hoverongaps: false,
-    hovertemplate: `x = %{x:.2f} mm, φ = %{y:.0f}°<br>${panel.title} %{z:.4~g}${unit}<extra></extra>` };
-  if (!inside.some((value) => value) || inside.every((value) => value)) return [cells];
-  const outline = { ...axes, type: "contour", z: rows(inside), autocontour: false, showscale: false, hoverinfo: "skip",
-    contours: { start: 0.5, end: 0.5, size: 1, coloring: "none" }, line: { color: "#000000", width: 1.5, dash: "dash" } };
-  return [cells, outline];
+// Borders of cells: halfway between centres.
+function bordersOf(centres) {
+  const inner = centres.slice(1).map((value, k) => (value + centres[k]) / 2);
+  const last = centres.length - 1;
+  return last ? [2 * centres[0] - inner[0], ...inner, 2 * centres[last] - inner[last - 1]] : [centres[0] - 0.5, centres[0] + 0.5];
 }
 
-function mapLayout(place, panels, narrow) {
-  const across = narrow ? [[0, 1], [0, 1], [0, 1]] : [[0, 0.29], [0.31, 0.6], [0.71, 1]];
-  const down = narrow ? [[0.7, 0.98], [0.36, 0.64], [0.02, 0.3]] : [[0, 1], [0, 1], [0, 1]];
-  const layout = layoutOf(place, narrow ? 760 : 330, { showlegend: false, annotations: [], margin: { l: 52, r: 72, t: 30, b: 46 } });
-  panels.forEach((panel, k) => {
-    layout[`xaxis${k + 1}`] = axisOf(narrow && k < 2 ? "" : "x (mm)", { domain: across[k], anchor: `y${k + 1}`, showgrid: false });
-    layout[`yaxis${k + 1}`] = axisOf(k === 0 || narrow ? "φ (°)" : "", { domain: down[k], anchor: `x${k + 1}`, tickvals: [0, 90, 180, 270, 360],
-      showgrid: false, showticklabels: k === 0 || narrow });
-    layout.annotations.push({ text: panel.title, showarrow: false, xref: "paper", yref: "paper", xanchor: "center", yanchor: "bottom",
-      x: (across[k][0] + across[k][1]) / 2, y: down[k][1] });
+const ROOM = { left: 46, top: 24, bottom: 40, gap: 14, bar: 96 };
+
+// Draws the panels side by side, or above each other where there is little room; returns what tells the cell under an event.
+function drawMaps(canvas, width, panels, inside) {
+  const narrow = width < 620;
+  const across = narrow ? width - ROOM.left - ROOM.bar : (width - ROOM.left - 2 * ROOM.bar - ROOM.gap) / 3;
+  const high = narrow ? 170 : 230;
+  const height = narrow ? 3 * (ROOM.top + high) + ROOM.bottom : ROOM.top + high + ROOM.bottom;
+  const pen = penOn(canvas, width, height);
+  const borders = [bordersOf(page.x), bordersOf(page.phi)];
+  const areas = panels.map((panel, k) => {
+    const left = narrow ? ROOM.left : ROOM.left + k * across + (k > 0) * ROOM.gap + (k > 1) * ROOM.bar;
+    const top = ROOM.top + (narrow ? k * (ROOM.top + high) : 0);
+    const x = linear([borders[0][0], borders[0][count.x]], [left, left + across]);
+    const phi = linear([borders[1][0], borders[1][count.phi]], [top + high, top]);
+    drawCells(pen, panel, x, phi, borders);
+    drawOutline(pen, x, phi, borders, inside);
+    drawAxes(pen, panel.title, { left, top, across, high }, x, [!narrow || k === 2, narrow || k === 0]);
+    if (narrow || k > 0) drawBar(pen, panel, left + across + 8, top, high);
+    return { left, top, x, phi };
   });
-  return layout;
+  return (event) => {
+    const area = canvas.getBoundingClientRect();
+    const u = event.clientX - area.left, v = event.clientY - area.top;
+    const over = areas.find(({ left, top }) => u >= left && u < left + across && v > top && v < top + high);
+    const cellOf = (edges, value) => Math.max(0, edges.findIndex((edge) => edge > value) - 1);
+    return over ? [cellOf(borders[0], over.x.back(u)), cellOf(borders[1], over.phi.back(v))] : null;
+  };
+}
+
+function penOn(canvas, width, height) {
+  const fine = Math.min(2, devicePixelRatio);
+  canvas.width = width * fine;
+  canvas.height = height * fine;
+  canvas.style.width = `${width}px`;
+  canvas.style.height = `${height}px`;
+  const pen = canvas.getContext("2d");
+  pen.scale(fine, fine);
+  pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
+  pen.fillStyle = pen.strokeStyle = css("--ink");
+  return pen;
+}
+
+function drawCells(pen, { values, low, high, colours }, x, phi, [alongX, alongPhi]) {
+  const shades = ramp(colours).map((colour) => `rgb(${colour})`);
+  const us = alongX.map((edge) => Math.round(x.at(edge))), vs = alongPhi.map((edge) => Math.round(phi.at(edge)));
+  pen.save();
+  for (let i = 0; i < count.x; i++) {
+    for (let j = 0; j < count.phi; j++) {
+      const value = values[i * count.phi + j];
+      pen.fillStyle = Number.isFinite(value) ? shades[Math.max(0, Math.min(255, Math.round((255 * (value - low)) / (high - low))))] : MISSING;
+      pen.fillRect(us[i], vs[j + 1], us[i + 1] - us[i], vs[j] - vs[j + 1]);
+    }
+  }
+  pen.strokeStyle = "#000000";
+  pen.lineWidth = 3;
+  const ring = (radius, colour, wide) => {
+    pen.strokeStyle = colour;
+    pen.lineWidth = wide;
+    pen.beginPath();
+    pen.arc(x.at(page.x[chosen.i]), phi.at(page.phi[chosen.j]), radius, 0, 7);
+    pen.stroke();
+  };
+  ring(6, "#000000", 3.5);
+  ring(6, "#ffffff", 1.5);
+  pen.restore();
+}
+
+// Where calcified cells end, black on white dashes, seen on any colour.
+function drawOutline(pen, x, phi, [alongX, alongPhi], inside) {
+  const is = (i, j) => i >= 0 && j >= 0 && i < count.x && j < count.phi && inside[i * count.phi + j] > 0;
+  pen.save();
+  pen.beginPath();
+  for (let i = 0; i <= count.x; i++) {
+    for (let j = 0; j <= count.phi; j++) {
+      if (i > 0 && i < count.x && j < count.phi && is(i - 1, j) !== is(i, j)) { pen.moveTo(x.at(alongX[i]), phi.at(alongPhi[j])); pen.lineTo(x.at(alongX[i]), phi.at(alongPhi[j + 1])); }
+      if (j > 0 && j < count.phi && i < count.x && is(i, j - 1) !== is(i, j)) { pen.moveTo(x.at(alongX[i]), phi.at(alongPhi[j])); pen.lineTo(x.at(alongX[i + 1]), phi.at(alongPhi[j])); }
+    }
+  }
+  pen.lineWidth = 2.5;
+  pen.strokeStyle = "#ffffff";
+  pen.stroke();
+  pen.lineWidth = 1.2;
+  pen.strokeStyle = "#000000";
+  pen.stroke();
+  pen.restore();
+}
+
+function drawAxes(pen, title, { left, top, across, high }, x, [below, beside]) {
+  pen.textAlign = "center";
+  pen.fillText(title, left + across / 2, top - 8);
+  for (const [value, text] of below ? x.ticks : []) pen.fillText(text, x.at(value), top + high + 15);
+  if (below) pen.fillText("x (mm)", left + across / 2, top + high + 32);
+  pen.textAlign = "right";
+  for (const degrees of beside ? [0, 90, 180, 270, 360] : []) pen.fillText(`${degrees}°`, left - 5, top + high * (1 - degrees / 360) + 4);
+  pen.save();
+  pen.translate(10, top + high / 2);
+  pen.rotate(-Math.PI / 2);
+  pen.textAlign = "center";
+  if (beside) pen.fillText("φ", 0, 0);
+  pen.restore();
+}
+
+function drawBar(pen, { colours, low, high, symbol, unit }, left, top, tall) {
+  const shades = ramp(colours);
+  const down = linear([low, high], [top + tall, top]);
+  pen.save();
+  for (let k = 0; k < tall; k++) {
+    pen.fillStyle = `rgb(${shades[Math.round((255 * (tall - 1 - k)) / (tall - 1))]})`;
+    pen.fillRect(left, top + k, 12, 1);
+  }
+  pen.restore();
+  pen.textAlign = "left";
+  for (const [value, text] of down.ticks) pen.fillText(text, left + 16, down.at(value) + 4);
+  pen.fillText(named(symbol, unit), left - 4, top - 8);
 }

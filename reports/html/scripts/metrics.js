@@ -3,7 +3,12 @@ const ROWS_SHOWN = 25;
 const FILTERS = ["variant", "quantity", "statistic", "status"];
 function metrics(host) {
   const { controls, place, words } = frame(host);
-  const all = page.metrics;
+  drawnWhenSeen(place, async () => {
+    if (!place.hasChildNodes()) searched(await unpackedJson(page.metrics), controls, place, words, host.dataset.label);
+  });
+}
+
+function searched(all, controls, place, words, label) {
   const total = all.i.length;
   let first = 0, order = null, ascending = true;
   const changed = () => { first = 0; draw(); };
@@ -31,7 +36,7 @@ function metrics(host) {
   }));
   const body = element("tbody", { role: "rowgroup" });
   table.append(element("thead", { role: "rowgroup" }, head), body);
-  table.setAttribute("aria-label", host.dataset.label);
+  table.setAttribute("aria-label", label);
   place.className = "scroll";
   place.removeAttribute("role");
   place.removeAttribute("aria-label");

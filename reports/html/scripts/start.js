@@ -2,30 +2,76 @@
 function themes() {
   const place = document.getElementById("theme");
   const choices = ["as the system", "light", "dark"];
+  const again = () => drawings.forEach((wish) => wish());
   const picked = choice(place, "colours", choices, () => {
     if (picked.value) document.documentElement.dataset.theme = choices[picked.value];
     else delete document.documentElement.dataset.theme;
-    drawings.forEach((again) => again());
+    again();
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawings.forEach((again) => again()));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
   place.hidden = false;
 }
 
+// Figures come when the reader is near them; the others follow one by one while the browser is idle.
+function figures() {
+  const images = [...document.querySelectorAll("figure noscript")].map((still) => {
+    const inert = element("template", { innerHTML: still.textContent });
+    const image = inert.content.firstElementChild;
+    const source = image.getAttribute("src");
+    const [width, height] = [image.getAttribute("width"), image.getAttribute("height")];
+    image.src = `data:image/svg+xml,<svg xmlns='http://www.w3.org/2000/svg' width='${width}' height='${height}'/>`;
+    still.replaceWith(image);
+    enlargeable(image.closest("figure"), image);
+    return { image, draw: () => { if (image.src.length < 200) image.src = source; } };
+  });
+  const seen = new IntersectionObserver((entries) => entries.filter((entry) => entry.isIntersecting)
+    .forEach((entry) => { seen.unobserve(entry.target); images.find(({ image }) => image === entry.target).draw(); }), { rootMargin: "800px" });
+  images.forEach(({ image }) => seen.observe(image));
+  images.forEach(({ image, draw }) => inTurn(async () => { draw(); await image.decode().catch(() => undefined); }));
+}
+
 // A figure too small to read on a telephone opens at its full size.
-function enlargeable(figure) {
-  const image = figure.querySelector("img");
+function enlargeable(figure, image) {
   const large = element("dialog", { className: "large", "aria-label": image.alt });
   const close = element("button", { type: "button" }, "Close");
-  const copy = image.cloneNode();
-  large.append(close, element("div", { tabIndex: 0 }, copy));
+  const place = element("div", { tabIndex: 0 });
+  large.append(close, place);
   close.addEventListener("click", () => large.close());
   const open = element("button", { type: "button", className: "enlarge" }, "Enlarge");
-  open.addEventListener("click", () => { if (!large.isConnected) figure.append(large); large.showModal(); });
+  open.addEventListener("click", () => {
+    place.replaceChildren(image.cloneNode());
+    if (!large.isConnected) figure.append(large);
+    large.showModal();
+  });
   figure.querySelector(".card").after(open);
 }
 
+// What an address or a link leads to is unfolded; so is all when it is printed.
+function unfolding() {
+  const unfold = () => {
+    const found = document.getElementById(decodeURIComponent(location.hash.slice(1).split("&")[0]));
+    if (!found) return;
+    for (let at = found; at; at = at.parentElement) if (at.tagName === "DETAILS") at.open = true;
+    found.scrollIntoView();
+  };
+  addEventListener("hashchange", unfold);
+  addEventListener("beforeprint", () => document.querySelectorAll("main details").forEach((fold) => { fold.open = true; }));
+  unfold();
+}
+
+const isSmall = matchMedia("(max-width: 70rem)");
+const arranged = () => document.querySelectorAll(".bar details").forEach((fold) => { fold.open = !isSmall.matches; });
+isSmall.addEventListener("change", arranged);
+arranged();
+document.querySelector(".bar").classList.add("sticky");
 themes();
-document.querySelectorAll("main table").forEach((table) => { if (table.tBodies[0].rows.length > 1) filterable(table, sortable(table)); });
-document.querySelectorAll("figure").forEach(enlargeable);
+figures();
+document.querySelectorAll("main table").forEach((table) => {
+  if (table.tBodies[0].rows.length < 2) return;
+  filterable(table);
+  sortable(table);
+});
 document.querySelectorAll("[data-interactive]").forEach((host) => PICTURES[host.dataset.interactive](host));
+PREPARED.forEach((prepare) => prepare());
+unfolding();
 document.documentElement.dataset.scripts = "ready";

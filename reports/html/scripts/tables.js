@@ -17,13 +17,11 @@ const words = (cell) => (cell.dataset.value ?? cell.textContent).trim();
 
 function sortable(table) {
   const heads = [...table.tHead.rows[table.tHead.rows.length - 1].cells];
-  const buttons = heads.map((head, column) => {
+  heads.forEach((head, column) => {
     const button = element("button", { type: "button", className: "sort" }, ...head.childNodes);
     head.append(button);
     button.addEventListener("click", () => sortBy(table, heads, column));
-    return button;
   });
-  return [buttons, heads.map((head, column) => table.tBodies[0].rows[0].cells[column].dataset.label)];
 }
 
 function sortBy(table, heads, column) {
@@ -36,15 +34,9 @@ function sortBy(table, heads, column) {
   body.append(...keyed.map(([, row]) => row));
 }
 
-// Where a table is too wide for headings, a list stands for them.
-function sortList(place, [buttons, labels]) {
-  const list = choice(place, "sort by", ["as it stands", ...labels], () => { if (list.value) buttons[list.value - 1].click(); });
-  list.list.parentElement.classList.add("narrow");
-}
-
-function filterable(table, sorting) {
+function filterable(table) {
   const columns = [...table.tHead.rows[table.tHead.rows.length - 1].cells]
-    .map((head, column) => ({ name: table.tBodies[0].rows[0].cells[column].dataset.label, column, filter: head.dataset.filter !== undefined }))
+    .map((head, column) => ({ name: head.textContent.trim(), column, filter: head.dataset.filter !== undefined }))
     .filter((entry) => entry.filter);
   const all = [...table.tBodies[0].rows];
   const bar = element("div", { className: "controls filters", role: "group", "aria-label": "Show only some rows of the table" });
@@ -55,13 +47,13 @@ function filterable(table, sorting) {
     const picked = choice(bar, name, [`all (${options.length})`, ...options], narrow);
     return [(row) => picked.value === 0 || words(row.cells[column]) === options[picked.value - 1]];
   });
+  if (!filters.length) return;
   function narrow() {
     for (const row of all) row.hidden = !filters.every((passes) => passes(row));
     const shown = all.filter((row) => !row.hidden).length;
     count.textContent = shown === all.length ? `${all.length} rows` : `${shown} of ${all.length} rows`;
   }
-  sortList(bar, sorting);
-  if (filters.length) bar.append(count);
+  bar.append(count);
   table.closest(".scroll").before(bar);
   narrow();
 }
