@@ -103,8 +103,11 @@ def _steps(page: Page, key: str) -> dict[str, float]:
 def _shows(key: str, label: str) -> bool:
     """Whether a picture's words depend on a slider: curves are of all times, the artery of all places."""
     place = label in ("cell i", "row j", "x", "φ")
-    return key == "curves-anywhere" and place or key in ("maps-anytime", "artery-turned") and not place \
-        or key == "profiles-anytime" and label == "time"
+    return (
+        (key == "curves-anywhere" and place)
+        or (key in ("maps-anytime", "artery-turned") and not place)
+        or (key == "profiles-anytime" and label == "time")
+    )
 
 
 def main() -> None:

@@ -37,10 +37,11 @@ class Warnings:
 
 @dataclass(frozen=True)
 class Listing:
-    """Text that is shown as it is: a command, a case file."""
+    """Text that is shown as it is: a command, a case file; one that is `attached` goes with a PDF as a file."""
 
     caption: str
     text: str
+    attached: str = ""
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,7 @@ MODELS: Final = (  # the reduced models in the order of the case
     Stroke("#7b3294", (0, (1.0, 1.0))),
 )
 CALCIFIED: Final = "#f4ead8"  # tint behind what lies in the calcification
+BEYOND: Final = "#b8480b"  # what is beyond a limit
 LIMIT: Final = "#e3e8ee"  # band between −limit and +limit
 MISSING: Final = "#b0b0b0"  # what is not stated
 GRID: Final = "#d8d8d8"

@@ -18,6 +18,7 @@ from reports.result.dataset import Attributes, opened, read_attributes, read_pro
 from reports.result.metrics import Metrics, read_metrics
 from reports.result.strict_json import read_json
 
+DOMINANCE = "axial_dominance_radial"  # that a reference may lack
 FIELDS = ("pressure", "radius", "sector_flow_rate", "section_flow_rate", "profile_exponent")
 
 
@@ -165,7 +166,8 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
     check_consistency(directory, (variants, models), attributes, metrics, provenance)
     columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
     states = [int(np.abs(dataset["time"].values - t).argmin()) for _, t in attributes.times]
-    names = [variable(of, name) for of in (REFERENCE, *models) for name in FIELDS]
+    wanted = [variable(of, name) for of in (REFERENCE, *models) for name in (*FIELDS, DOMINANCE)]
+    names = [name for name in wanted if name in dataset]
     fields = dataset[[*names, comparison_file.PROFILE_ERROR, CALCIFIED]].load()
     profiles = read_profiles(path, dataset, columns, rows)
     views: dict[str, Comparison] = {}

@@ -11,6 +11,7 @@ from reports.sections.parts.cost import cost_sentence
 from reports.sections.parts.heat_table import heat_table
 from reports.sections.parts.limits import place_beyond
 from reports.sections.parts.models import model_words
+from reports.sections.parts.trust_figure import has_trust_map, trust_figure
 from reports.wording.numbers import listed, share
 from reports.wording.words import limit, measure, quantity_words, statistic_words
 
@@ -114,6 +115,7 @@ def section(comparison: Comparison) -> Blocks:
     table = heat_table(comparison)
     if table:
         blocks.append(table)
+    blocks += [trust_figure(comparison)] if has_trust_map(comparison) else []
     cost = cost_sentence(comparison)
     if cost:
         blocks.append(Paragraph(cost))

@@ -1,13 +1,14 @@
 """Section on the assumptions checked: whether 3D allows what the 2D model assumes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from cases.results.metric_row import MetricRow
 from cases.statistics import BUDGET, PLACED
 from reports.blocks import Column, Table, numbers, prose
 from reports.result.load import Comparison
-from reports.sections.declaration import Blocks, declared
+from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.dominance import AZIMUTHAL, RADIAL, RATIOS, ratio
+from reports.sections.parts.models import headed
 from reports.wording.numbers import ABSENT, percent, rounded, share, with_unit
 from reports.wording.words import field_of, place, quantity_words, statistic_words
 
@@ -91,19 +92,40 @@ _ASSUMPTIONS: tuple[tuple[str, str, Figures], ...] = (
 
 @declared("assumptions", "Assumptions checked")
 def section(comparison: Comparison) -> Blocks:
-    """Return what the 2D model assumes with the figures of both models, then figures that have no table."""
-    table = Table(
-        "assumption-figures",
-        "What the 2D model assumes of the flow, and how far each model is from it: the largest figures over "
-        f"the artery and the cycle. {ABSENT}: the model has none by construction, or it was not measured.",
-        (
-            *prose("assumption", "measured by"),
-            *(Column(model, "number", name) for name in comparison.variants for model in ("3D", "2D")),
-        ),
-        tuple(
-            (title, measure, *(text for name in comparison.variants for text in figures(comparison, name)))
-            for title, measure, figures in _ASSUMPTIONS
+    """Return what the 2D model assumes with the figures of all models."""
+    sides = ("3D", *comparison.models)
+    return (
+        Table(
+            "assumption-figures",
+            "What the 2D model assumes of the flow, and how far each model is from it: the largest "
+            f"figures over the artery and the cycle. {ABSENT}: the model has none by construction, or it "
+            "was not measured.",
+            (
+                *prose("assumption", "measured by"),
+                *(
+                    Column(side if side == "3D" else headed(comparison, side), "number", name)
+                    for name in comparison.variants
+                    for side in sides
+                ),
+            ),
+            tuple(
+                (title, measure, *_of_sides(comparison, figures)) for title, measure, figures in _ASSUMPTIONS
+            ),
         ),
     )
-    others = further_figures(comparison, _PLACED)
-    return (table,) if others is None else (table, others)
+
+
+def _of_sides(comparison: Comparison, figures: Figures) -> Iterator[str]:
+    """Figures of 3D and of each reduced model, variant by variant."""
+    for name in comparison.variants:
+        yield figures(comparison, name)[0]
+        for model in comparison.models:
+            yield figures(comparison.of(model), name)[1]
+
+
+@declared("further", "Further figures", appendix=True)
+@of_each_model
+def others(comparison: Comparison) -> Blocks:
+    """Return the figures that have no table of their own."""
+    table = further_figures(comparison, _PLACED)
+    return (table,) if table else ()

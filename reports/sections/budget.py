@@ -7,7 +7,7 @@ from functools import partial
 from reports.blocks import Block, Bullets, Column, Figure, Paragraph, Table
 from reports.figures.budget_bars import BudgetBars, budget_bars
 from reports.result.load import Comparison
-from reports.sections.declaration import Blocks, declared
+from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts.error_budget import Budget, budget, budgets, sentence
 from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import ABSENT, fixed, listed, share
@@ -79,22 +79,31 @@ def _shown(comparison: Comparison) -> list[str]:
 
 
 def _figure(comparison: Comparison, quantity: str) -> Figure:
-    found = {v: b for v in comparison.variants if (b := budget(comparison, v, quantity))}
+    found = {
+        _named(comparison, variant, model): of
+        for variant in comparison.variants
+        for model in comparison.models
+        if (of := budget(comparison.of(model), variant, quantity))
+    }
     parts = _known(comparison, _BARS)
     bars = [
-        BudgetBars(variant, tuple(_percent(of[part]) for part in parts), _model(of))
-        for variant, of in found.items()
+        BudgetBars(name, tuple(_percent(of[part]) for part in parts), _model(of))
+        for name, of in found.items()
     ]
-    said = "; ".join(f"{variant}: {sentence(of)}" for variant, of in found.items())
-    rows = [(v, part, value) for v, of in found.items() for part, value in of.parts.items()]
+    said = "; ".join(f"{name}: {sentence(of)}" for name, of in found.items())
+    rows = [(name, part, value) for name, of in found.items() for part, value in of.parts.items()]
     return Figure(
         key=f"budget-figure-{quantity}",
         caption=f"Error of the {quantity_words(quantity)} and what it is owed to. {said}.",
         alt=f"Bars of the error of the {quantity_words(quantity)}, of the parts of its uncertainty and of "
-        f"the error with the same inflow, for variants {listed(found)}. {said}.",
+        f"the error with the same inflow, for {listed(found)}. {said}.",
         drawing=partial(budget_bars, [_COLUMNS[part] for part in parts], bars),
         csv=comma_separated(("variant", "part", "value"), rows),
     )
+
+
+def _named(comparison: Comparison, variant: str, model: str) -> str:
+    return variant if len(comparison.models) == 1 else f"{variant} {model}"
 
 
 def _percent(value: float | None) -> float:
@@ -126,7 +135,7 @@ def _unknown(comparison: Comparison) -> tuple[str, ...]:
 
 @declared("budget", "Error budget")
 def section(comparison: Comparison) -> Blocks:
-    """Return a table a variant, what is not known, and a figure a quantity."""
+    """Return what is not known, and a figure a quantity."""
     shown = [name for name in comparison.variants if budgets(comparison, name)]
     if not shown:
         return ()
@@ -139,6 +148,13 @@ def section(comparison: Comparison) -> Blocks:
     ]
     unknown = _unknown(comparison)
     blocks += [Bullets(unknown)] if unknown else []
-    blocks += [_table(comparison, k, name) for k, name in enumerate(shown, start=1)]
     blocks += [_figure(comparison, quantity) for quantity in _shown(comparison)]
     return tuple(blocks)
+
+
+@declared("budget-tables", "Error budget, in numbers", appendix=True)
+@of_each_model
+def tables(comparison: Comparison) -> Blocks:
+    """Return a table a variant."""
+    shown = [name for name in comparison.variants if budgets(comparison, name)]
+    return tuple(_table(comparison, k, name) for k, name in enumerate(shown, start=1))

@@ -9,7 +9,7 @@ from cases.fields import FIELDS, Field
 from cases.results.metric_row import MetricRow
 from reports.blocks import Block, Column, Paragraph, Subsection, Table
 from reports.result.load import Comparison
-from reports.sections.declaration import Blocks, declared
+from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts import pooled
 from reports.sections.parts.cells import cell_tables
 from reports.wording.numbers import (
@@ -246,7 +246,8 @@ def _cell_changes(comparison: Comparison) -> tuple[Block, ...]:
     return tables
 
 
-@declared("change", "What calcification changes")
+@declared("change", "What calcification changes, in numbers", appendix=True)
+@of_each_model
 def section(comparison: Comparison) -> Blocks:
     """Return the largest changes in words, then those of the whole cycle and of the shown cells."""
     times = listed(instant(name, t) for name, t in comparison.times)

@@ -17,7 +17,12 @@ from reports.sections.parts.stated import anywhere, left_out
 from reports.wording.numbers import listed
 from reports.wording.words import row_heading
 
-_SYMBOLS = {"pressure": "$P$", "radius": "$R$", "sector_flow_rate": r"$q_\varphi$", "section_flow_rate": "$q$"}
+_SYMBOLS = {
+    "pressure": "$P$",
+    "radius": "$R$",
+    "sector_flow_rate": r"$q_\varphi$",
+    "section_flow_rate": "$q$",
+}
 _OF_ROWS, _OF_SECTIONS = ("pressure", "radius", "sector_flow_rate"), ("section_flow_rate",)
 
 

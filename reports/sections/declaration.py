@@ -1,10 +1,10 @@
 """The declaration of a section: key, title, what it needs, and what it says."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
-from reports.blocks import Block, Paragraph, Section, Subsection
+from reports.blocks import Block, Figure, Paragraph, Section, Subsection, Table
 from reports.result.load import Comparison
 
 Blocks = tuple[Block | Subsection, ...]
@@ -55,6 +55,30 @@ def declared(
 ) -> Callable[[Callable[[Comparison], Blocks]], Declared]:
     """Return the decorator that makes a section of the function that gives its blocks."""
     return partial(Declared, key, title, needs, appendix=appendix)
+
+
+def of_each_model(blocks: Callable[[Comparison], Blocks]) -> Callable[[Comparison], Blocks]:
+    """Return what says the same of each reduced model in turn, under its name where there are several."""
+
+    def composed(comparison: Comparison) -> Blocks:
+        if len(comparison.models) == 1:
+            return blocks(comparison)
+        found = []
+        for model in comparison.models:
+            said = [
+                replace(block, key=f"{block.key}-{model}") if isinstance(block, Table | Figure) else block
+                for part in blocks(comparison.of(model))
+                for block in (part.blocks if isinstance(part, Subsection) else (part,))
+            ]
+            if said:
+                found.append(
+                    Subsection(
+                        f"of-{blocks.__module__.rpartition('.')[2]}-{model}", f"2D model {model}", tuple(said)
+                    )
+                )
+        return tuple(found)
+
+    return composed
 
 
 def instants(what: str) -> Need:

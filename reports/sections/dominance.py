@@ -1,11 +1,20 @@
 """Section on axial dominance: how small the velocities are that the 2D model neglects."""
 
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from cases.arrays import Floats
 from cases.results.metric_row import MetricRow, Model
-from reports.blocks import Block, Column, Paragraph, Table
+from reports.blocks import Block, Column, Figure, Paragraph, Table
+from reports.figures.dominance_map import dominance_map
 from reports.result.load import Comparison
-from reports.sections.declaration import Blocks, declared
+from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts.cells import chunks
-from reports.wording.numbers import ABSENT, SPACE, fixed
+from reports.sections.parts.models import headed
+from reports.wording.csv_text import comma_separated
+from reports.wording.numbers import ABSENT, SPACE, fixed, listed
 from reports.wording.words import place
 
 RADIAL, AZIMUTHAL = "axial_dominance_radial", "axial_dominance_azimuthal"
@@ -138,11 +147,58 @@ def _at_edge(comparison: Comparison, row: MetricRow) -> bool:
     return bool(near.any() and not near.all())
 
 
+def _maps(comparison: Comparison, variant: str, model: str) -> Floats:
+    """Largest |v_r|/v_x over the ray and the cycle, (x, phi)."""
+    return np.asarray(comparison.fields[f"{model}_{RADIAL}"].sel(variant=variant).values, dtype=float)
+
+
+def _figure(comparison: Comparison) -> Figure:
+    lines = [("3D", [_maps(comparison, name, "reference") for name in comparison.variants])]
+    for model in comparison.models:
+        view = comparison.of(model)
+        lines.append((headed(comparison, model), [_maps(view, name, "rom") for name in comparison.variants]))
+    fields = comparison.fields
+    return Figure(
+        "dominance-figure",
+        f"Largest {RATIOS[RADIAL]} over the ray and the cycle, in 3D and as it follows from 2D. The last "
+        "cell is left out: the outlet's condition makes what is there.",
+        f"Maps over x and φ of the largest {RATIOS[RADIAL]} in 3D and 2D for {listed(comparison.variants)}.",
+        partial(
+            dominance_map,
+            1e3 * fields["x"].values,
+            np.degrees(fields["phi"].values),
+            [comparison.titles[name] for name in comparison.variants],
+            lines,
+            fields["calcified"].values > 0,
+            label="$|v_r|/v_x$",
+        ),
+        _csv(comparison, lines),
+    )
+
+
+def _csv(comparison: Comparison, lines: Sequence[tuple[str, Sequence[Floats]]]) -> str:
+    rows = [
+        (variant, label, i + 1, j + 1, float(values[i, j]))
+        for label, of in lines
+        for variant, values in zip(comparison.variants, of, strict=True)
+        for i, j in np.ndindex(values.shape)
+    ]
+    return comma_separated(("variant", "model", "i", "j", "ratio"), rows)
+
+
 @declared("dominance", "Axial dominance")
 def section(comparison: Comparison) -> Blocks:
-    """Return the ratios of the neglected velocities to the axial one."""
+    """Return how small the neglected velocities are, and where."""
     said = (_dominance_sentence(comparison), _implied_sentence(comparison))
-    blocks: list[Block] = [Paragraph(" ".join(filter(None, said)))]
+    drawn = f"reference_{RADIAL}" in comparison.fields and comparison.n_phi > 1
+    return (Paragraph(" ".join(filter(None, said))), *((_figure(comparison),) if drawn else ()))
+
+
+@declared("dominance-tables", "Axial dominance, in numbers", appendix=True)
+@of_each_model
+def tables(comparison: Comparison) -> Blocks:
+    """Return the ratios of the neglected velocities to the axial one."""
+    blocks: list[Block] = []
     largest = _largest_table(comparison)
     if largest:
         blocks.append(largest)

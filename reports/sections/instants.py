@@ -33,7 +33,9 @@ def _figures(comparison: Comparison, number: int, variant: str) -> list[Figure]:
     ]
 
 
-@declared("instants", "Profiles at the probes", Need(lambda comparison: bool(comparison.times)), appendix=True)
+@declared(
+    "instants", "Profiles at the probes", Need(lambda comparison: bool(comparison.times)), appendix=True
+)
 def section(comparison: Comparison) -> Blocks:
     """Return a figure a variant."""
     variants, _ = stated(comparison)

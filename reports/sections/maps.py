@@ -71,9 +71,10 @@ def _figure(comparison: Comparison, variants: list[str]) -> Figure:
     farthest = _farthest(comparison, quantities, variants)
     return Figure(
         "maps-figure",
-        f"2D − 3D in percent of 3D over the unrolled lumen at {when}; scales end at the limits: {listed(scales)}. "
-        f"A uniform panel is a number. Farthest: {farthest}.",
-        f"Maps over x and φ of the differences from 3D at {when}, for {listed(variants)}. Farthest: {farthest}.",
+        f"2D − 3D in percent of 3D over the unrolled lumen at {when}; scales end at the limits: "
+        f"{listed(scales)}. A uniform panel is a number. Farthest: {farthest}.",
+        f"Maps over x and φ of the differences from 3D at {when}, for {listed(variants)}. Farthest: "
+        f"{farthest}.",
         partial(
             limit_maps,
             1e3 * stated["x"].values,

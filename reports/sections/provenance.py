@@ -3,6 +3,7 @@
 import hashlib
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 
 from pydantic import JsonValue
 
@@ -96,23 +97,33 @@ def _inputs(comparison: Comparison) -> Table:
 
 @declared("provenance", "Provenance")
 def section(comparison: Comparison) -> Blocks:
-    """Return the command, both models' settings, the inputs and the case file."""
-    p = comparison.provenance
-    blocks: list[Block] = [
+    """Return the command and what it ran on and from; the case file goes with it."""
+    return (
         Paragraph(
             "How to repeat it: check out the commit named below, install the package, put the files listed "
             "under inputs in place and run the command."
         ),
-        Listing("Command", p.command),
+        Listing("Command", comparison.provenance.command),
         _run(comparison),
-    ]
+        Listing("The case file", comparison.case_yaml, attached="case.yaml"),
+    )
+
+
+@declared("settings", "Settings, inputs and notes", appendix=True)
+def settings(comparison: Comparison) -> Blocks:
+    """Return all models' settings, the inputs, the libraries and the notes of the run."""
+    p = comparison.provenance
+    blocks: list[Block] = []
     for model in comparison.models:
         told = {name: comparison.of(model).settings(name).facts() for name in comparison.variants}
         which = "2D model" if len(comparison.models) == 1 else f"2D model {model}"
         blocks.append(_facts(comparison, model, f"{which}: grid, time step and settings.", told))
     told = {name: p.variants[name].reference.facts() for name in comparison.variants}
     blocks.append(_facts(comparison, "reference", "3D reference: files, mesh and states.", told))
-    blocks += [table for table in (records_table(comparison), cost_table(comparison)) if table]
+    blocks += [table for table in (records_table(comparison),) if table]
+    for model in comparison.models:
+        cost = cost_table(comparison.of(model))
+        blocks += [replace(cost, key=f"cost-{model}")] if cost else []
     if p.wall_times_s:
         blocks.append(
             pairs(
@@ -129,5 +140,4 @@ def section(comparison: Comparison) -> Blocks:
     if p.notes:
         blocks.append(Paragraph(f"{counted(len(p.notes), 'note')} of the run, warnings and assumptions:"))
         blocks.append(Bullets(p.notes))
-    blocks.append(Listing("The case file", comparison.case_yaml))
     return tuple(blocks)

@@ -29,10 +29,13 @@ def _values(variant: str, state: int, i: int, j: int, view: Comparison, model: s
     return np.asarray(at.values, dtype=float)
 
 
-def profile_row(comparison: Comparison, variant: str, state: int, j: int, place: str, columns: tuple[int, ...]) -> GridRow:
+def profile_row(
+    comparison: Comparison, variant: str, state: int, j: int, place: str, columns: tuple[int, ...]
+) -> GridRow:
     """Profiles of a variant at a named instant along row j, a panel a probe."""
     panels = tuple(
-        GridPanel(partial(_values, variant, state, i, j), comparison.calcified(variant, i, j)) for i in columns
+        GridPanel(partial(_values, variant, state, i, j), comparison.calcified(variant, i, j))
+        for i in columns
     )
     return GridRow(_FIELD, "$v_x$", place, panels)
 
@@ -70,8 +73,8 @@ def figures(comparison: Comparison, variants: list[str]) -> list[Figure]:
             comparison,
             (
                 f"profiles-{columns[0]}",
-                f"Axial velocity from the axis ({_RADIUS}{SPACE}={SPACE}0) to the wall at {row_heading(comparison, j)}, "
-                f"at {when}. Farthest from 3D at all probes: {farthest}.",
+                f"Axial velocity from the axis ({_RADIUS}{SPACE}={SPACE}0) to the wall at "
+                f"{row_heading(comparison, j)}, at {when}. Farthest from 3D at all probes: {farthest}.",
                 f"Velocity profiles of all models at {when}, a row of panels for each of {listed(variants)}. "
                 f"Farthest from 3D: {farthest}.",
             ),
@@ -105,7 +108,7 @@ def section(comparison: Comparison) -> Blocks:
             "The profile at any time",
             "Choose a variant and a cell, move the time slider or let it play; point at the curves for "
             "their values.",
-            {"profiles": all_models(comparison, _FIELD, "profiles")},
+            {"profiles": all_models(comparison, _FIELD, lambda view: view.profiles)},
         ),
         *told,
         *figures(comparison, variants),

@@ -3,10 +3,10 @@
 from collections import Counter
 
 from cases.results.metric_row import MetricRow, Status
-from reports.blocks import Block, Bullets, Column, Interactive, Paragraph, Table, Warnings, numbers, prose
+from reports.blocks import Block, Bullets, Column, Paragraph, Table, numbers, prose
 from reports.result.load import Comparison
-from reports.sections.declaration import Blocks, declared
-from reports.sections.parts import error_budget, page_data, pooled, trust
+from reports.sections.declaration import Blocks, declared, of_each_model
+from reports.sections.parts import error_budget, pooled, trust
 from reports.wording.numbers import ABSENT, counted, listed, rounded, share
 from reports.wording.words import limit, measure, place, quantity_words, statistic_words
 
@@ -221,13 +221,11 @@ def _other_references(comparison: Comparison) -> str:
     )
 
 
-@declared("verdict", "Verdict")
+@declared("verdict", "Bands and checks", appendix=True)
+@of_each_model
 def section(comparison: Comparison) -> Blocks:
-    """Return the headline, the bands and what the comparison cannot tell."""
+    """Return the bands, what the comparison cannot tell, and how far 3D can be trusted."""
     blocks: list[Block] = [Paragraph(headline(comparison), lead=True)]
-    warnings = (*trust.doubts(comparison), *comparison.provenance.warnings)
-    if warnings:
-        blocks.append(Warnings(warnings))
     told = _other_references(comparison)
     if told:
         blocks.append(Paragraph(told))
@@ -240,14 +238,4 @@ def section(comparison: Comparison) -> Blocks:
     if unknown:
         blocks += [Paragraph("What this comparison does not tell:"), Bullets(unknown)]
     blocks += [table for table in (trust.table(comparison), pooled.table(comparison)) if table]
-    blocks.append(
-        Interactive(
-            "metrics-all",
-            "metrics",
-            "Every figure of this comparison",
-            "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
-            "click on a heading sorts.",
-            {"metrics": page_data.metric_columns(comparison.metrics)},
-        )
-    )
     return tuple(blocks)

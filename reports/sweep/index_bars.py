@@ -10,10 +10,10 @@ from matplotlib.lines import Line2D
 
 from cases.arrays import Floats
 from reports.figures.canvas import STYLE, WIDTH, svg_text
-from reports.figures.curves import ROM_COLOUR
+from reports.figures.colours import MODELS
 from reports.sweep.scatter import bare, wrapped
 
-_BAR_COLOURS = (ROM_COLOUR, "#e69f00")
+_BAR_COLOURS = (MODELS[0].colour, "#e69f00")
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 
 from cases.arrays import Flags, Floats
 from reports.figures.canvas import STYLE, WIDTH, legend_above, svg_text
-from reports.figures.curves import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
+from reports.figures.colours import BEYOND, MODELS, REFERENCE
 from reports.figures.lumen_cells import edges_of
 from reports.sweep.amounts import steady
 
@@ -78,7 +78,7 @@ def _response(axis: Axes, column: Abscissa, row: Ordinate) -> None:
     bare(axis)
     _scales(axis, column)
     many = row.values.size > _MANY
-    for which, marker, colour in ((row.ok, "o", ROM_COLOUR), (~row.ok, "x", DIFFERENCE_COLOUR)):
+    for which, marker, colour in ((row.ok, "o", MODELS[0].colour), (~row.ok, "x", BEYOND)):
         axis.plot(
             column.values[which],
             row.values[which],
@@ -90,9 +90,9 @@ def _response(axis: Axes, column: Abscissa, row: Ordinate) -> None:
             alpha=0.6,
             rasterized=many,
         )
-    axis.plot(*means(column.values, row.values), color=REFERENCE_COLOUR, linewidth=0.9)
+    axis.plot(*means(column.values, row.values), color=REFERENCE, linewidth=0.9)
     for limit in _limits(row):
-        axis.axhline(limit, color=REFERENCE_COLOUR, linewidth=0.7, linestyle=(0, (4, 2)))
+        axis.axhline(limit, color=REFERENCE, linewidth=0.7, linestyle=(0, (4, 2)))
     known = row.values[np.isfinite(row.values)]
     if known.size and steady(float(known.min()), float(known.max())) and known.any():
         half = _STEADY_HALF * float(np.abs(known).max())  # a line, not a magnified rounding error
@@ -245,18 +245,16 @@ def _bar(axis: Axes, norm: Normalize, row: Ordinate) -> None:
 
 def _legend(figure: Figure, judged: bool) -> None:
     handles = [
-        Line2D([], [], **_marker("o", ROM_COLOUR), label="sample" + (", within its band" if judged else "")),
-        Line2D([], [], color=REFERENCE_COLOUR, linewidth=0.9, label="mean of neighbours"),
+        Line2D(
+            [], [], **_marker("o", MODELS[0].colour), label="sample" + (", within its band" if judged else "")
+        ),
+        Line2D([], [], color=REFERENCE, linewidth=0.9, label="mean of neighbours"),
     ]
     if judged:
         handles[1:1] = [
-            Line2D(
-                [], [], linestyle="none", marker="x", color=DIFFERENCE_COLOUR, markersize=4.0, label="beyond"
-            )
+            Line2D([], [], linestyle="none", marker="x", color=BEYOND, markersize=4.0, label="beyond")
         ]
-        handles.append(
-            Line2D([], [], color=REFERENCE_COLOUR, linewidth=0.7, linestyle=(0, (4, 2)), label="limit")
-        )
+        handles.append(Line2D([], [], color=REFERENCE, linewidth=0.7, linestyle=(0, (4, 2)), label="limit"))
     legend_above(figure, handles, _LEFT)
 
 

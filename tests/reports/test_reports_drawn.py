@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from drawn_figure import drawn
 from matplotlib.collections import QuadMesh
+from reports.figures.curves import small_multiples
+from reports.figures.panels import Curves, PanelRow
 
 from reports.figures import tubes as tubes_module
-from reports.figures.curves import small_multiples
 from reports.figures.lumen_cells import cell_borders
-from reports.figures.panels import Curves, PanelRow
 from reports.figures.tubes import Tube, tubes
 from reports.figures.two_processes import draw, helper
 

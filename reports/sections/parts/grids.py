@@ -111,7 +111,15 @@ def _csv(
     rows: Sequence[tuple[GridRow, ChangeRow]],
 ) -> str:
     lines = [
-        (of.field.name, of.field.display_unit, of.place, column, at, drawn.reference[n], *(m[n] for m in drawn.models))
+        (
+            of.field.name,
+            of.field.display_unit,
+            of.place,
+            column,
+            at,
+            drawn.reference[n],
+            *(m[n] for m in drawn.models),
+        )
         for of, row in rows
         for column, drawn in zip(columns, row.panels, strict=True)
         for n, at in enumerate(abscissa[1].tolist())

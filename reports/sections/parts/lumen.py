@@ -1,4 +1,4 @@
-"""Fields on all cells of the lumen at one instant: arrays for maps, and their data."""
+"""Fields on all cells of the lumen at one instant, as data."""
 
 from collections.abc import Sequence
 
@@ -15,22 +15,6 @@ DIGITS = 6  # thousands of cells: more would double the report
 def field(data: xr.Dataset, name: str, factor: float = 1.0) -> Floats:
     """Values of a variable times `factor`."""
     return factor * data[name].values.astype(float)
-
-
-def centres(data: xr.Dataset) -> tuple[Floats, Floats]:
-    """Centres of the cells: x in mm, φ in degrees."""
-    return 1e3 * data["x"].values, np.degrees(data["phi"].values)
-
-
-def outlined(data: xr.Dataset) -> str:
-    """Say what the frame in a map is; "" where there is none."""
-    return " Framed: the calcified cells." if bool(data["calcified"].any()) else ""
-
-
-def cells_csv(instants: Sequence[tuple[float, xr.Dataset]], names: Sequence[str]) -> str:
-    """All cells at each of the (time, fields), SI."""
-    texts = (cells_text(t_s, data, names) for t_s, data in instants)
-    return "".join((cells_header((), names), *texts))
 
 
 def cells_header(first: Sequence[str], names: Sequence[str]) -> str:

@@ -1,0 +1,65 @@
+"""The artery unrolled: where each reduced model is within its limits, and where it is not."""
+
+from functools import partial
+
+import numpy as np
+
+from cases.arrays import Floats
+from reports.blocks import Figure
+from reports.figures.trust_map import TrustRow, trust_map
+from reports.result.load import Comparison
+from reports.sections.parts.limits import worst_over_limits
+from reports.sections.parts.models import headed
+from reports.wording.csv_text import comma_separated
+from reports.wording.numbers import listed, share
+
+
+def has_trust_map(comparison: Comparison) -> bool:
+    """Whether limits judge fields that the reference states everywhere, around the artery too."""
+    return comparison.n_phi > 1 and all(
+        (found := worst_over_limits(comparison, name)) is not None and bool(np.isfinite(found).all())
+        for name in comparison.variants
+    )
+
+
+def _ratios(comparison: Comparison) -> dict[str, list[Floats]]:
+    """Largest error over its limit in each cell: by model, one array a variant."""
+    found = {}
+    for model in comparison.models:
+        maps = [worst_over_limits(comparison.of(model), name) for name in comparison.variants]
+        found[model] = [each for each in maps if each is not None]
+    return found
+
+
+def trust_figure(comparison: Comparison) -> Figure:
+    """Return the map of the largest error over its limit, a row of panels a model."""
+    ratios = _ratios(comparison)
+    fields = comparison.fields
+    said = "; ".join(
+        f"{name}: "
+        f"{listed(f'{headed(comparison, m)} {share(float((ratios[m][k] <= 1).mean()))}' for m in ratios)}"
+        for k, name in enumerate(comparison.variants)
+    )
+    return Figure(
+        "trust-map",
+        "The artery unrolled: largest error over the cycle over its limit, of all that limits judge. "
+        f"Blue is inside every limit, orange outside. Share of the wall inside: {said}.",
+        f"Maps over x and φ of where each model is within its limits. Share inside: {said}.",
+        partial(
+            trust_map,
+            1e3 * fields["x"].values,
+            np.degrees(fields["phi"].values),
+            [comparison.titles[name] for name in comparison.variants],
+            [TrustRow(headed(comparison, model), tuple(maps)) for model, maps in ratios.items()],
+            fields["calcified"].values > 0,
+        ),
+        comma_separated(
+            ("variant", "model", "i", "j", "error_over_limit"),
+            [
+                (name, model, i + 1, j + 1, float(values[i, j]))
+                for model, maps in ratios.items()
+                for name, values in zip(comparison.variants, maps, strict=True)
+                for i, j in np.ndindex(values.shape)
+            ],
+        ),
+    )
