@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from matplotlib import style
@@ -15,6 +16,7 @@ from reports.figures.lumen_cells import edges_of, runs
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.66, 0.10, 0.46, 0.36
 _HEIGHT, _GAP = 1.06, 0.44  # inches: of the panels, and below them for their abscissas
+_CLOSE = 0.14  # below panels whose abscissas stand below the next row
 
 
 @dataclass(frozen=True)
@@ -81,10 +83,11 @@ def along_and_around(
         SVG; the same text for the same input.
     """
     with style.context(STYLE):
-        total = _TOP + (_HEIGHT + _GAP) * len(rows) - _GAP + _BOTTOM
+        below = [_CLOSE if _same_abscissa(*pair) else _GAP for pair in pairwise(rows)]
+        total = _TOP + _HEIGHT * len(rows) + sum(below) + _BOTTOM
         figure, axis = sheet.sheet(total)
         for number, row in enumerate(rows):
-            bottom = total - _TOP - _HEIGHT - number * (_HEIGHT + _GAP)
+            bottom = total - _TOP - _HEIGHT * (number + 1) - sum(below[:number])
             edges = edges_of(row.abscissa)
             known = [v for p in row.panels for v in (p.reference, *p.models)]
             panels = sheet.in_a_row(
@@ -104,12 +107,17 @@ def along_and_around(
             sheet.model_curves(axis, panels, at, list(zip(*(p.models for p in row.panels), strict=True)))
             sheet.reference_points(axis, panels, at, [p.reference for p in row.panels])
             sheet.frames(axis, panels)
-            sheet.abscissas(axis, panels, row.abscissa_label, row.ticks or None, 4)
+            if number == len(below) or below[number] == _GAP:
+                sheet.abscissas(axis, panels, row.abscissa_label, row.ticks or None, 4)
         keys = list(sheet.models_keys(reference, models))
         if any(panel.calcified.any() for row in rows for panel in row.panels):
             keys.append(sheet.Key("calcified", fill=CALCIFIED))
         sheet.legend(axis, keys, _LEFT, total - 0.12)
         return svg_text(figure)
+
+
+def _same_abscissa(row: ChangeRow, below: ChangeRow) -> bool:
+    return row.abscissa_label == below.abscissa_label and np.array_equal(row.abscissa, below.abscissa)
 
 
 def _tint(axis: Axes, panels: Sequence[sheet.Panel], row: ChangeRow, edges: Floats) -> None:

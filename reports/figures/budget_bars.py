@@ -13,7 +13,7 @@ from reports.figures.canvas import STYLE, WIDTH, legend_above, svg_text
 
 _COLOURS = ("#1a1a1a", "#b8480b", "#0072b2", "#e69f00", "#56b4e9", "#009e73")
 _LEFT, _RIGHT, _TOP, _BOTTOM = 1.2, 0.2, 0.32, 0.40
-_BAR, _GAP = 0.12, 0.14  # inches
+_BAR, _BAR_OF_MANY, _MANY, _GAP = 0.12, 0.065, 4, 0.12  # inches
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ def budget_bars(words: Sequence[str], variants: Sequence[BudgetBars]) -> str:
     """Draw the bars; ``words`` name the parts. The interval stands below the bars of its variant."""
     with style.context(STYLE):
         count = len(words) + 1
-        group = count * _BAR + _GAP
+        bar = _BAR if len(variants) < _MANY else _BAR_OF_MANY
+        group = count * bar + _GAP
         height = _TOP + len(variants) * group + _BOTTOM
         figure = Figure(figsize=(WIDTH, height))
         FigureCanvasSVG(figure)
@@ -51,15 +52,15 @@ def budget_bars(words: Sequence[str], variants: Sequence[BudgetBars]) -> str:
             )
         )
         for number, variant in enumerate(variants):
-            places = number * group + _BAR * (np.arange(count) + 0.5)
+            places = number * group + bar * (np.arange(count) + 0.5)
             colours = _COLOURS[: len(words)]
-            axis.barh(places[:-1], np.nan_to_num(variant.parts), height=0.9 * _BAR, color=colours)
+            axis.barh(places[:-1], np.nan_to_num(variant.parts), height=0.9 * bar, color=colours)
             low, high = variant.model
             axis.plot([low, high], [places[-1]] * 2, "|-", color=_COLOURS[0], linewidth=1.2, markersize=5.0)
         axis.set_ylim(len(variants) * group, 0.0)
         axis.set_xlim(left=0.0)
         axis.set_yticks(
-            [number * group + 0.5 * count * _BAR for number in range(len(variants))],
+            [number * group + 0.5 * count * bar for number in range(len(variants))],
             [variant.name for variant in variants],
         )
         axis.spines[["top", "right"]].set_visible(False)

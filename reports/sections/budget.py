@@ -1,14 +1,14 @@
 """Section of the error budget: what of each error is owed to inflow, meshes, inputs and the model."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import partial
 
 from reports.blocks import Block, Bullets, Column, Figure, Paragraph, Table
 from reports.figures.budget_bars import BudgetBars, budget_bars
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
-from reports.sections.parts.error_budget import Budget, budget, budgets, sentence
+from reports.sections.parts.error_budget import NOT_TOLD, Budget, budget, budgets, sentence
 from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import ABSENT, fixed, listed, share
 from reports.wording.words import quantity_words
@@ -90,7 +90,7 @@ def _figure(comparison: Comparison, quantity: str) -> Figure:
         BudgetBars(name, tuple(_percent(of[part]) for part in parts), _model(of))
         for name, of in found.items()
     ]
-    said = "; ".join(f"{name}: {sentence(of)}" for name, of in found.items())
+    said = _said(found)
     rows = [(name, part, value) for name, of in found.items() for part, value in of.parts.items()]
     return Figure(
         key=f"budget-figure-{quantity}",
@@ -100,6 +100,15 @@ def _figure(comparison: Comparison, quantity: str) -> Figure:
         drawing=partial(budget_bars, [_COLUMNS[part] for part in parts], bars),
         csv=comma_separated(("variant", "part", "value"), rows),
     )
+
+
+def _said(found: Mapping[str, Budget]) -> str:
+    """Say what the model answers for, those of which the same is said together."""
+    same: dict[str, list[str]] = {}
+    for name, of in found.items():
+        told = NOT_TOLD if of.within_uncertainty else sentence(of)
+        same.setdefault(told, []).append(name)
+    return "; ".join(f"{told}: {listed(names)}" for told, names in same.items())
 
 
 def _named(comparison: Comparison, variant: str, model: str) -> str:

@@ -20,6 +20,7 @@ from reports.wording.words import instant
 
 _MAPPED = {"radius": "$R$", "sector_flow_rate": r"$q_\varphi$", "pressure": "$P$"}
 _UNJUDGED = 0.01  # ends of the scale where no limit is declared
+_AS = {"sector_flow_rate": "section_flow_rate"}  # whose limit counts where a quantity has none of its own
 
 
 def _percent(comparison: Comparison, variant: str, quantity: str) -> Floats:
@@ -31,11 +32,15 @@ def _percent(comparison: Comparison, variant: str, quantity: str) -> Floats:
     return np.asarray(np.where(np.isfinite(found), found, np.nan))
 
 
+def _limit(comparison: Comparison, quantity: str) -> float | None:
+    return limit_of(comparison, quantity) or limit_of(comparison, _AS.get(quantity, quantity))
+
+
 def _rows(comparison: Comparison, quantities: list[str], variants: list[str]) -> list[LimitRow]:
     return [
         LimitRow(
             f"{headed(comparison, model)}, {_MAPPED[quantity]}",
-            100 * (limit_of(comparison, quantity) or _UNJUDGED),
+            100 * (_limit(comparison, quantity) or _UNJUDGED),
             tuple(_percent(comparison.of(model), name, quantity) for name in variants),
         )
         for quantity in quantities
@@ -61,12 +66,13 @@ def _farthest(comparison: Comparison, quantities: list[str], variants: list[str]
 
 def _figure(comparison: Comparison, variants: list[str]) -> Figure:
     stated = comparison.maps.sel(variant=variants).isel(time=0)
-    quantities = [name for name in _MAPPED if mostly(stated[f"reference_{name}"].values)]
+    known = [name for name in _MAPPED if mostly(stated[f"reference_{name}"].values)]
+    quantities = [name for name in known if _limit(comparison, name)] or known
     when = instant(*comparison.times[0])
     scales = [
         f"{FIELDS[name].label} ±{100 * (limit or _UNJUDGED):g}{SPACE}%{'' if limit else ' (no limit)'}"
         for name in quantities
-        for limit in (limit_of(comparison, name),)
+        for limit in (_limit(comparison, name),)
     ]
     farthest = _farthest(comparison, quantities, variants)
     return Figure(

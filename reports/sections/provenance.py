@@ -64,7 +64,7 @@ def _run(comparison: Comparison) -> Table:
             "package version": p.package_version,
             "git commit": p.git_commit,
             "Python": p.python,
-            **{f"machine: {name}": value for name, value in p.machine.items()},
+            "machine": ", ".join(str(value) for value in p.machine.values()),
         },
     )
 

@@ -7,6 +7,8 @@ from cases.statistics import BUDGET_PARTS
 from reports.result.load import Comparison
 from reports.wording.numbers import listed, share
 
+NOT_TOLD = "no model error can be told from the uncertainty"
+
 
 @dataclass(frozen=True)
 class Budget:
@@ -22,6 +24,12 @@ class Budget:
     def compared(self) -> float | None:
         """Error that the model answers for: with the inflow of the 3D mesh, where that is known."""
         return self["error"] if self["matched"] is None else self["matched"]
+
+    @property
+    def within_uncertainty(self) -> bool:
+        """Whether what the model answers for is no larger than what is uncertain."""
+        error, uncertainty = self.compared, self["uncertainty"]
+        return error is not None and uncertainty is not None and error <= uncertainty
 
 
 def budgets(comparison: Comparison, variant: str) -> list[Budget]:
@@ -47,11 +55,8 @@ def sentence(found: Budget) -> str:
         return "the error was not told apart"
     if uncertainty is None:
         text = "what the model answers for is not known"
-    elif error <= uncertainty:
-        text = (
-            f"no model error can be told from the uncertainty of {_counted(found)} "
-            f"(error {share(error)}, uncertainty {share(uncertainty)})"
-        )
+    elif found.within_uncertainty:
+        text = f"{NOT_TOLD} of {_counted(found)} (error {share(error)}, uncertainty {share(uncertainty)})"
     elif found["mesh"] is None:
         text = f"error {share(error)}, beyond the uncertainty of {_counted(found)}"
     else:
