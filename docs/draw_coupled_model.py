@@ -9,8 +9,8 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from cases.reading.case_file import load_case_file
+from reports.figures import colours
 from reports.figures.canvas import STYLE, WIDTH, svg_text
-from reports.figures.curves import DIFFERENCE_COLOUR, REFERENCE_COLOUR, ROM_COLOUR
 from solver.case.model import grid_of
 from validation.ablation.ladder import models_between
 from validation.mapping.rays import rays
@@ -18,7 +18,8 @@ from validation.reference.febio.series import KIND
 from validation.runs.reduced_model import run_reduced_model
 
 ROOT = Path(__file__).parents[1]
-MODELS = {"thick wall, row pressure": DIFFERENCE_COLOUR, "membrane wall, section pressure": ROM_COLOUR}
+MEMBRANE = colours.MODELS[0].colour
+MODELS = {"thick wall, row pressure": colours.BEYOND, "membrane wall, section pressure": MEMBRANE}
 SHOWN_ROWS = (4, 15, 25)
 EDGE, MIDDLE = 39, 61  # cells along the artery
 
@@ -38,9 +39,9 @@ def runs() -> dict[str, xr.Dataset]:
 
 def lines(axes, fields, values, x):
     """3D as points, both models as lines."""
-    axes.plot(x, values(fields["3D"]), ".", color=REFERENCE_COLOUR, markersize=3, label="3D (FEBio)")
+    axes.plot(x, values(fields["3D"]), ".", color=colours.REFERENCE, markersize=3, label="3D (FEBio)")
     for name, colour in MODELS.items():
-        dashes = (None, None) if colour == ROM_COLOUR else (4, 2)
+        dashes = (None, None) if colour == MEMBRANE else (4, 2)
         axes.plot(x, values(fields[name]), color=colour, dashes=dashes, linewidth=1, label=name)
 
 

@@ -140,7 +140,7 @@ def _row(
             else:
                 _draw(axis, panel, edges, values, scale, group.threshold)
             if group.corners and group.corners[number]:
-                _corner(axis, panel, group.corners[number])
+                sheet.corner(axis, panel, group.corners[number])
     for panel, flags in zip(panels, inside, strict=True):
         _border(axis, panel, cell_borders(*edges, flags), 1.6, 0.7)
     sheet.frames(axis, panels, closed=True)
@@ -210,9 +210,3 @@ def _write(axis: Axes, panel: Panel, words: str) -> None:
     middle = (panel.left + right) / 2, panel.bottom + panel.height / 2
     pad = {"facecolor": _PLAIN, "linewidth": 0, "pad": 1.0}
     axis.text(*middle, words, ha="center", va="center", fontsize=7.5, zorder=4, bbox=pad, parse_math=False)
-
-
-def _corner(axis: Axes, panel: Panel, words: str) -> None:
-    pad = {"facecolor": "#ffffff", "alpha": 0.85, "linewidth": 0, "pad": 1.0}
-    place = panel.left + 0.05, panel.top - 0.05
-    axis.text(*place, words, ha="left", va="top", fontsize=6.5, zorder=4, bbox=pad, parse_math=False)

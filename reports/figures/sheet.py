@@ -270,6 +270,13 @@ def headings(axis: Axes, panels: Sequence[Panel], words: Sequence[str]) -> None:
         )
 
 
+def corner(axis: Axes, panel: Panel, words: str) -> None:
+    """Write words into the upper left corner of a panel, on white."""
+    pad = {"facecolor": "#ffffff", "alpha": 0.85, "linewidth": 0, "pad": 1.0}
+    place = panel.left + 0.05, panel.top - 0.05
+    axis.text(*place, words, ha="left", va="top", fontsize=SMALL, zorder=4, bbox=pad, parse_math=False)
+
+
 def models_keys(reference: str, models: Sequence[str]) -> Iterator[Key]:
     """Entries of a legend for the reference and the reduced models."""
     yield Key(reference, REFERENCE)
@@ -320,11 +327,11 @@ def numerals(marks: Sequence[float]) -> list[str]:
 
 def limits(arrays: Sequence[Floats], margin: float = 0.06) -> tuple[float, float]:
     """Range of all finite values with a margin; never empty."""
-    values = np.concatenate([np.ravel(a) for a in arrays]) if arrays else np.empty(0)
-    values = values[np.isfinite(values)]
-    if values.size == 0:
+    known = [array[np.isfinite(array)] for array in arrays]
+    ends = [(float(values.min()), float(values.max())) for values in known if values.size]
+    if not ends:
         return 0.0, 1.0
-    low, high = float(values.min()), float(values.max())
+    low, high = min(first for first, _ in ends), max(last for _, last in ends)
     span = high - low if high - low > 1e-9 * max(abs(low), abs(high)) else 0.0  # not what is mere round-off
     added = margin * span or 0.05 * abs(high) or 1.0
     return low - added, high + added

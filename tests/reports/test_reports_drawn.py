@@ -5,19 +5,18 @@ import numpy as np
 import pytest
 from drawn_figure import drawn
 from matplotlib.collections import QuadMesh
-from reports.figures.curves import small_multiples
-from reports.figures.panels import Curves, PanelRow
 
 from reports.figures import tubes as tubes_module
 from reports.figures.lumen_cells import cell_borders
+from reports.figures.overview import Cycle, OverviewRow, overview
 from reports.figures.tubes import Tube, tubes
 from reports.figures.two_processes import draw, helper
 
 
 def _drawing(label: str) -> partial[str]:
     x = np.linspace(0, 1, 12)
-    rows = [PanelRow("P (kPa)", label, (Curves(x, x + 0.1),), "2D − 3D (Pa)", 1e3)]
-    return partial(small_multiples, x, "time (s)", ["i = 1"], rows)
+    rows = [OverviewRow("P (kPa)", 1.0, (Cycle(1 + x, (1.1 + x,)),))]
+    return partial(overview, x, [label], rows, ["2D"])
 
 
 def _broken() -> str:

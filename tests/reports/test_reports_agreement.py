@@ -1,0 +1,58 @@
+"""Parity and differences count every stated pair once, and tell bias, scatter and limit of what is drawn."""
+
+import numpy as np
+import pytest
+from drawn_figure import drawn, filled, words
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+
+from cases.arrays import Floats
+from reports.figures import agreement as module
+from reports.figures.agreement import Agreement, agreement
+from reports.figures.colours import LIMIT
+
+NUMBERS = np.random.default_rng(3)
+THREE = NUMBERS.uniform(2.0, 3.0, (5, 4, 10))
+TWO = THREE * (1 + NUMBERS.normal(0.01, 0.002, THREE.shape))
+ROW = Agreement("$R$", "mm", (THREE,), (TWO,), 2.0)
+
+
+def _figure(monkeypatch: pytest.MonkeyPatch, row: Agreement) -> Figure:
+    return drawn(monkeypatch, module, lambda: agreement(("none",), [row], "2D"))
+
+
+def _counts(figure: Figure) -> list[Floats]:
+    images = [np.ma.asarray(image.get_array()) for image in figure.axes[0].images]
+    return [10 ** image.filled(-np.inf) for image in images if image.shape[1] > 1]
+
+
+def test_every_pair_is_counted_once_in_both_panels(monkeypatch: pytest.MonkeyPatch) -> None:
+    for counts in _counts(_figure(monkeypatch, ROW)):
+        assert counts.sum() == pytest.approx(THREE.size)
+
+
+def test_bias_and_scatter_are_those_of_the_differences(monkeypatch: pytest.MonkeyPatch) -> None:
+    figure = _figure(monkeypatch, ROW)
+    percent = 100 * (TWO / THREE - 1)
+    assert f"+{percent.mean():.2f} ± {1.96 * percent.std():.2f} %" in words(figure)
+    lines = [
+        float(path.vertices[0, 1])
+        for artist in figure.axes[0].collections
+        if isinstance(artist, LineCollection) and artist.get_linewidths()[0] in (1.0, 0.8)
+        for path in artist.get_paths()
+    ]
+    bias, low, high = lines
+    band = next(box[:, 1] for box in filled(figure, LIMIT))
+    inches = np.ptp(band) / 4.0  # from −2 % to +2 %
+    assert bias == pytest.approx((band.min() + band.max()) / 2 + inches * percent.mean(), abs=1e-9)
+    assert [high - bias, bias - low] == pytest.approx([inches * 1.96 * percent.std()] * 2)
+
+
+def test_what_is_not_stated_is_not_counted_and_no_limit_is_no_band(monkeypatch: pytest.MonkeyPatch) -> None:
+    sparse = np.where(THREE > 2.5, THREE, np.nan)
+    figure = _figure(monkeypatch, Agreement("$R$", "mm", (sparse,), (TWO,)))
+    assert _counts(figure)[0].sum() == pytest.approx((THREE > 2.5).sum())
+    assert not filled(figure, LIMIT)
+    assert "within the limit" not in words(figure)
+    nowhere = Agreement("$R$", "mm", (np.full(3, np.nan),), (np.ones(3),))
+    assert agreement(("none",), [nowhere], "2D") == agreement(("none",), [nowhere], "2D")
