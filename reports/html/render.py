@@ -12,22 +12,23 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from reports.blocks import Figure, Report
+from reports.html.picture import image_address
 
-_LARGE = 100_000  # bytes
+_LARGE = 8_000  # bytes
 
 
 def render_html(report: Report, drawings: Mapping[str, str]) -> str:
     """Return the HTML text of `report`; texts are escaped, figures (SVG by key) and their data embedded."""
     pictures = tuple(dict.fromkeys(block.picture for block in report.interactives()))
-    scripts = (*((_library(),) if pictures else ()), _own_scripts(pictures, "fields" in report.data))
+    script = _scripts(pictures, "fields" in report.data)
     return (
         environment()
         .get_template("report.html")
         .render(
             report=report,
             drawings=drawings,
-            scripts=[Markup(script) for script in scripts],  # noqa: S704 (the package's own and the library)
-            checksums=[_checksum(script) for script in scripts],
+            script=Markup(script),  # noqa: S704 (the package's own)
+            checksum=_checksum(script),
             data=Markup(report.page_data().replace("<", "\\u003c")),  # noqa: S704 (JSON that ends no script)
         )
     )
@@ -43,7 +44,7 @@ def environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters["data_uri"] = _data_uri
+    made.filters["image_address"] = image_address
     made.filters["data_link"] = _data_link
     made.filters["kind"] = lambda block: type(block).__name__
     made.filters["svg_size"] = _svg_size
@@ -51,20 +52,15 @@ def environment() -> Environment:
 
 
 @cache
-def _library() -> str:
-    """Return Plotly's script, from its Python package."""
-    return files("plotly").joinpath("package_data", "plotly.min.js").read_text(encoding="utf-8")
-
-
-@cache
-def _own_scripts(pictures: tuple[str, ...], on_cells: bool) -> str:
+def _scripts(pictures: tuple[str, ...], on_cells: bool) -> str:
     """Join what a page needs that has these interactive pictures, some of the lumen's cells."""
     folder = files("reports.html").joinpath("scripts")
-    cells = ("cells",) if on_cells else ()
-    names = ("data", "controls", "tables", "plots", *cells, *pictures)
+    cells = ("chosen", "raster") if on_cells else ()
+    names = ("data", "controls", "tables", "views", "scales", "chart", *cells, *pictures)
     texts = [folder.joinpath(f"{name}.js").read_text(encoding="utf-8") for name in (*names, "start")]
     drawn = f"const PICTURES = {{ {', '.join(pictures)} }};"
-    return "\n".join(['"use strict";', "{", *texts[:-1], drawn, texts[-1], "}"])
+    bar = f"const fillBar = {'choosing' if on_cells else 'null'};"
+    return "\n".join(['"use strict";', "{", *texts[:-1], drawn, bar, texts[-1], "}"])
 
 
 def _checksum(script: str) -> str:
@@ -72,15 +68,11 @@ def _checksum(script: str) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()}'"
 
 
-def _data_uri(text: str, mime: str) -> str:
-    return f"data:{mime};base64,{base64.b64encode(text.encode()).decode()}"
-
-
 def _data_link(figure: Figure) -> Markup:
     """Link to the numbers behind a figure; many are compressed, or they would be most of the page."""
     content, name, mime, words = figure.csv.encode(), f"{figure.key}.csv", "text/csv;charset=utf-8", "CSV"
     if len(content) > _LARGE:
-        content = gzip.compress(content, compresslevel=4, mtime=0)
+        content = gzip.compress(content, compresslevel=6, mtime=0)
         name, mime, words = f"{name}.gz", "application/gzip", "CSV, gzip"
     return Markup('<a download="{}" href="data:{};base64,{}">Data ({})</a>').format(
         name, mime, base64.b64encode(content).decode(), words

@@ -103,9 +103,8 @@ def section(comparison: Comparison) -> Blocks:
             "profiles-anytime",
             "profiles",
             "The profile at any time",
-            "Choose a variant and a cell, move the time slider or let it play; point at the curves for "
-            "their values.",
-            {"profiles": all_models(comparison, _FIELD, "profiles")},
+            "Of the shown cell that is nearest to the chosen place; point at the curves for their values.",
+            {"profiles": all_models(comparison, _FIELD, lambda seen: seen.profiles)},
         ),
         *told,
         *figures(comparison, variants),

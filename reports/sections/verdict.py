@@ -247,7 +247,7 @@ def section(comparison: Comparison) -> Blocks:
             "Every figure of this comparison",
             "All rows of metrics.json; errors are relative to 3D. Choose what to see; a "
             "click on a heading sorts.",
-            {"metrics": page_data.metric_columns(comparison.metrics)},
+            {"metrics": page_data.metric_columns(comparison)},
         )
     )
     return tuple(blocks)

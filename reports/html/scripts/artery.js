@@ -1,7 +1,7 @@
 // The deformed lumen in both models, turned together by pointer, keyboard or slider.
 const COLOURED_BY = ["lumen radius", "pressure", "calcification"];
 const SEEN_AT_FIRST = 16; // degrees from the side towards the inlet
-const MOST_PIXELS = 450000; // of a picture: finer ones would be slower than the eye
+const MOST_PIXELS = 300000; // of a picture: finer ones would be slower than the eye
 
 function artery(host) {
   const { controls, place, words } = frame(host);
@@ -11,10 +11,12 @@ function artery(host) {
   const aim = { turn: 5 * Math.round(page.artery.seen_from / 5), tilt: SEEN_AT_FIRST, nearer: 1 };
   const turn = slider(controls, "turn about the axis", 71, (aim.turn / 5) % 72, (k) => `${5 * k}°`, () => { aim.turn = 5 * turn.value; wish(); });
   const nearer = slider(controls, "nearer to the chosen place", 6, 0, (k) => `× ${(1 + k / 2).toFixed(1)}`, () => { aim.nearer = 1 + nearer.value / 2; wish(); });
+  const pair = element("div", { className: "pair" });
+  place.append(pair);
   const views = ["reference", "rom"].map((model) => {
     const title = element("div", { className: "view-title" });
     const canvas = element("canvas", { "aria-hidden": "true" });
-    place.append(title, canvas);
+    pair.append(element("div", {}, title, canvas));
     return { model, title, canvas, raster: null, projected: null };
   });
   const bar = element("canvas", { "aria-hidden": "true" });
@@ -30,7 +32,7 @@ function artery(host) {
     const colours = colour.value === 2 ? ramp(["#56b4e9", "#d55e00"]).map((_, k, all) => all[k < 128 ? 0 : 255]) : ramp(VIRIDIS);
     for (const view of views) {
       view.title.textContent = view.model === "rom" ? modelLabel() : "3D";
-      const on = canvasSize(view, place.clientWidth);
+      const on = canvasSize(view, view.title.clientWidth);
       view.projected = projected(on, now(radius[view.model]), shade(view.model), [low, high], times[exaggeration.value], aim);
       drawLumen(view, colours, cells);
     }
@@ -75,7 +77,7 @@ function draggable(canvas, aim, turned, clicked) {
 }
 
 function canvasSize(view, width) {
-  const height = width < 620 ? 170 : 230;
+  const height = Math.round(Math.min(260, 0.48 * width));
   const fine = Math.min(2, Math.sqrt(MOST_PIXELS / (width * height)));
   const [across, down] = [Math.round(width * fine), Math.round(height * fine)];
   if (view.raster?.width !== across || view.raster.height !== down) {
@@ -121,7 +123,7 @@ function drawLumen({ raster, canvas, projected: at }, colours, cells) {
       fillTriangle(raster, colours, quad, at, c, a + 5, c + 5);
     }
   }
-  const pen = canvas.getContext("2d");
+  const pen = canvas.getContext("2d", { willReadFrequently: true });
   pen.putImageData(new ImageData(new Uint8ClampedArray(raster.pixels.buffer), raster.width, raster.height), 0, 0);
   outlined(pen, raster, at, cells);
   ringed(pen, raster, at);

@@ -6,10 +6,10 @@ function drawn(tag, attributes, ...children) {
   return made;
 }
 
-const MARGIN = { left: 66, right: 14, top: 8, bottom: 42, gap: 26 };
+const MARGIN = { left: 66, right: 14, top: 16, bottom: 42, gap: 26 };
 
 // `lines`: name, panel, x, y, colour, kind ("line", "points", "crosses"), dash; `panels`: title, share of the height, low, high.
-// `marks`: abscissas of upright lines, `limits`: ordinates of level ones, `now`: the chosen abscissa.
+// `marks`: abscissas and names of upright lines, `limits`: ordinates of level ones, `now`: the chosen abscissa.
 function chart(place, { height, x, panels, lines, marks = [], limits = [], now = null, told, chosenAt }) {
   const width = Math.max(place.clientWidth, 240);
   const across = (x.log ? logarithmic : linear)(x.range, [MARGIN.left, width - MARGIN.right]);
@@ -27,7 +27,7 @@ function chart(place, { height, x, panels, lines, marks = [], limits = [], now =
   for (const [value, text] of across.ticks) svg.append(drawn("text", { x: across.at(value), y: last.bottom + 16, "text-anchor": "middle" }, text));
   svg.append(drawn("text", { x: (MARGIN.left + width - MARGIN.right) / 2, y: height - 6, "text-anchor": "middle" }, x.title));
   const upright = (value, name) => drawn("line", { class: name, x1: across.at(value), x2: across.at(value), y1: downs[0].top, y2: last.bottom });
-  svg.append(...marks.map((value) => upright(value, "mark")), ...(now === null ? [] : [upright(now, "now")]));
+  svg.append(...marks.flatMap(({ at, name }) => [upright(at, "mark"), drawn("text", { x: across.at(at) + 3, y: downs[0].top - 4, "text-anchor": across.at(at) > 0.85 * width ? "end" : "start" }, name)]), ...(now === null ? [] : [upright(now, "now")]));
   svg.append(...limits.map((y) => drawn("line", { class: "limit", x1: MARGIN.left, x2: width - MARGIN.right, y1: downs[0].at(y), y2: downs[0].at(y) })));
   for (const line of lines) svg.append(shape(line, across, downs[line.panel]));
   place.replaceChildren(legend(lines), svg);

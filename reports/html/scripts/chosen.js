@@ -26,7 +26,7 @@ const cellNumber = (text, most) => (Number.isInteger(Number(text)) && Number(tex
 function choose(changes) {
   Object.assign(chosen, changes);
   for (const key of KEYS) if (controlsOf[key]) controlsOf[key].value = chosen[key];
-  placeTold.textContent = placeWords(chosen.i, chosen.j);
+  chosenWords.textContent = `${page.variants[chosen.variant]}, t = ${page.time[chosen.time].toFixed(3)} s, ${placeWords(chosen.i, chosen.j)}`;
   followers.forEach((follow) => follow(Object.keys(changes)));
 }
 
@@ -61,14 +61,14 @@ function readAddress() {
   return found;
 }
 
-const placeTold = element("output", { className: "place" });
+const chosenWords = element("output", { className: "place" });
 const inside = page.calcified.map(() => null);
 Promise.all(page.calcified.map(unpack)).then((all) => { all.forEach((cells, k) => { inside[k] = cells; }); choose({}); });
 
 function placeWords(i, j) {
   const cells = inside[chosen.variant];
   const where = cells && cells[i * count.phi + j] ? ", in the calcification" : "";
-  return `x = ${page.x[i].toFixed(1)} mm, φ = ${page.phi[j].toFixed(0)}°${where}`;
+  return `x = ${page.x[i].toFixed(1)}\u00a0mm, φ = ${page.phi[j].toFixed(0)}°${where}`;
 }
 
 // The controls of the choice, in the bar that stays in sight.
@@ -83,7 +83,8 @@ function choosing(host) {
   at.append(playing());
   controlsOf.i = slider(at, "x", count.x - 1, chosen.i, (k) => `${page.x[k].toFixed(2)} mm`, wish("i"));
   controlsOf.j = slider(at, "φ", count.phi - 1, chosen.j, (k) => `${page.phi[k].toFixed(0)}°`, wish("j"));
-  host.append(at, placeTold);
+  host.querySelector("summary").append(chosenWords);
+  host.append(at);
   host.hidden = false;
   choose(readAddress());
   addEventListener("hashchange", () => chooseNow(readAddress()));
@@ -112,6 +113,7 @@ async function bothModels(field) {
   return { reference, rom };
 }
 const modelLabel = () => page.models[chosen.model].label;
+const modelColour = () => `var(--model-${chosen.model % 3})`;
 
 function moment(state) {
   const entry = page.named.find((other) => other.state === state);

@@ -20,14 +20,14 @@ async function drawCurves(place, words) {
   const two = modelLabel(), apart = `${two} − 3D`;
   const lines = [
     { name: "3D", panel: 0, y: reference, colour: "var(--reference)", kind: "points" },
-    { name: two, panel: 0, y: rom, colour: "var(--rom)", kind: "line" },
+    { name: two, panel: 0, y: rom, colour: modelColour(), kind: "line" },
     { name: apart, panel: 1, y: difference, colour: "var(--difference)", kind: "line", dash: true },
   ].map((line) => ({ ...line, x: page.time }));
   const told = (k) => [moment(k), `3D ${withUnit(number(reference[k]), field.unit)}`, `${two} ${withUnit(number(rom[k]), field.unit)}`,
     `${apart} ${withUnit(signed(difference[k]), field.difference_unit)}`];
   const last = page.time[count.time - 1];
   chart(place, {
-    height: 420, lines, told, chosenAt: (k) => chooseNow({ time: k }), marks: page.named.map((entry) => page.time[entry.state]), now: page.time[chosen.time],
+    height: 420, lines, told, chosenAt: (k) => chooseNow({ time: k }), marks: page.named.map((entry) => ({ at: page.time[entry.state], name: entry.name })), now: page.time[chosen.time],
     x: { title: "time into the cycle (s)", range: [-0.01 * last, 1.01 * last] },
     panels: [{ title: named(field.symbol, field.unit), share: 0.66 }, { title: named(apart, field.difference_unit), share: 0.34 }],
   });

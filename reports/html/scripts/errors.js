@@ -11,7 +11,7 @@ function errors(host) {
     const models = await bothModels(page.fields.profile_exponent);
     const at = cellAt(page.named[instant].state, page.i[i] - 1, page.j[j] - 1);
     const two = modelLabel();
-    const marks = [["closest to 3D", models.reference[at], "var(--reference)"], [`of ${two}`, models.rom[at], "var(--rom)"]];
+    const marks = [["closest to 3D", models.reference[at], "var(--reference)"], [`of ${two}`, models.rom[at], modelColour()]];
     const [, most] = extent([error]);
     chart(place, {
       height: 320, x: { title: "exponent γ (–)", range: [gamma[0], gamma[gamma.length - 1]], log: true },

@@ -46,7 +46,7 @@ function opensCurves(host, target, cellOf) {
   const words = element("p", { className: "readout" });
   const below = element("div", { className: "plot", role: "figure", "aria-label": "Curves over the cycle at the chosen place" });
   const fold = element("details", {}, element("summary", {}, "Curves over the cycle at the chosen place"), below, words);
-  host.append(fold);
+  host.querySelector("details").append(fold);
   followed(below, words);
   target.addEventListener("click", (event) => {
     const cell = cellOf(event);
@@ -107,7 +107,7 @@ function penOn(canvas, width, height) {
   canvas.height = height * fine;
   canvas.style.width = `${width}px`;
   canvas.style.height = `${height}px`;
-  const pen = canvas.getContext("2d");
+  const pen = canvas.getContext("2d", { willReadFrequently: true }); // drawn by the processor: small and often
   pen.scale(fine, fine);
   pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
   pen.fillStyle = pen.strokeStyle = css("--ink");
@@ -115,18 +115,23 @@ function penOn(canvas, width, height) {
 }
 
 function drawCells(pen, { values, low, high, colours }, x, phi, [alongX, alongPhi]) {
-  const shades = ramp(colours).map((colour) => `rgb(${colour})`);
-  const us = alongX.map((edge) => Math.round(x.at(edge))), vs = alongPhi.map((edge) => Math.round(phi.at(edge)));
-  pen.save();
-  for (let i = 0; i < count.x; i++) {
-    for (let j = 0; j < count.phi; j++) {
+  const shades = ramp(colours);
+  const fine = pen.getTransform().a;
+  const pixels = (edges, axis) => edges.map((edge) => Math.round(fine * axis.at(edge)));
+  const us = pixels(alongX, x), vs = pixels(alongPhi, phi);
+  const top = vs[count.phi], image = pen.createImageData(us[count.x] - us[0], vs[0] - top);
+  const all = new Uint32Array(image.data.buffer);
+  for (let j = 0; j < count.phi; j++) {
+    const start = (vs[j + 1] - top) * image.width;
+    for (let i = 0; i < count.x; i++) {
       const value = values[i * count.phi + j];
-      pen.fillStyle = Number.isFinite(value) ? shades[Math.max(0, Math.min(255, Math.round((255 * (value - low)) / (high - low))))] : MISSING;
-      pen.fillRect(us[i], vs[j + 1], us[i + 1] - us[i], vs[j] - vs[j + 1]);
+      const [red, green, blue] = Number.isFinite(value) ? shades[Math.max(0, Math.min(255, Math.round((255 * (value - low)) / (high - low))))] : MISSING;
+      all.fill(0xff000000 | (blue << 16) | (green << 8) | red, start + us[i] - us[0], start + us[i + 1] - us[0]);
     }
+    for (let row = 1; row < vs[j] - vs[j + 1]; row++) all.copyWithin(start + row * image.width, start, start + image.width);
   }
-  pen.strokeStyle = "#000000";
-  pen.lineWidth = 3;
+  pen.putImageData(image, us[0], top);
+  pen.save();
   const ring = (radius, colour, wide) => {
     pen.strokeStyle = colour;
     pen.lineWidth = wide;
@@ -166,12 +171,7 @@ function drawAxes(pen, title, { left, top, across, high }, x, [below, beside]) {
   if (below) pen.fillText("x (mm)", left + across / 2, top + high + 32);
   pen.textAlign = "right";
   for (const degrees of beside ? [0, 90, 180, 270, 360] : []) pen.fillText(`${degrees}°`, left - 5, top + high * (1 - degrees / 360) + 4);
-  pen.save();
-  pen.translate(10, top + high / 2);
-  pen.rotate(-Math.PI / 2);
-  pen.textAlign = "center";
-  if (beside) pen.fillText("φ", 0, 0);
-  pen.restore();
+  if (beside) pen.fillText("φ", left - 5, top - 10);
 }
 
 function drawBar(pen, { colours, low, high, symbol, unit }, left, top, tall) {

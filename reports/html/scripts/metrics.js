@@ -1,6 +1,6 @@
 // Every row of metrics.json, to be searched; a page of rows at a time.
 const ROWS_SHOWN = 25;
-const FILTERS = ["variant", "quantity", "statistic", "status"];
+const FILTERS = ["model", "variant", "quantity", "statistic", "status"];
 function metrics(host) {
   const { controls, place, words } = frame(host);
   drawnWhenSeen(place, async () => {
@@ -12,13 +12,14 @@ function searched(all, controls, place, words, label) {
   const total = all.i.length;
   let first = 0, order = null, ascending = true;
   const changed = () => { first = 0; draw(); };
-  const filters = FILTERS.map((name) => {
+  const kept = FILTERS.filter((name) => name in all); // one model needs no column
+  const filters = kept.map((name) => {
     const { names, rows } = all[name];
     const picked = choice(controls, name === "status" ? "verdict" : name, ["all", ...names.map((text) => text || "not judged")], changed);
     return (k) => picked.value === 0 || rows[k] === picked.value - 1;
   });
   const word = (name, k) => all[name].names[all[name].rows[k]];
-  const heads = [...FILTERS.map((name) => [name === "status" ? "verdict" : name, name, (k) => word(name, k)]),
+  const heads = [...kept.map((name) => [name === "status" ? "verdict" : name, name, (k) => word(name, k)]),
     ["at", "at", (k) => spot(all, k)], ["3D", "reference", (k) => all.reference[k]], ["2D", "rom", (k) => all.rom[k]],
     ["error", "error", (k) => all.error[k]], ["limit", "band", (k) => all.band[k]]];
   const table = element("table", { role: "table" });
@@ -38,8 +39,8 @@ function searched(all, controls, place, words, label) {
   table.append(element("thead", { role: "rowgroup" }, head), body);
   table.setAttribute("aria-label", label);
   place.className = "scroll";
-  place.removeAttribute("role");
-  place.removeAttribute("aria-label");
+  place.setAttribute("role", "region");
+  place.tabIndex = 0;
   place.append(table);
   const back = element("button", { type: "button" }, "Earlier rows");
   const on = element("button", { type: "button" }, "Later rows");

@@ -17,7 +17,7 @@ function profiles(host) {
       panels: [{ title: named(field.symbol, field.unit), share: 1, low: Math.min(0, least), high: 1.05 * most }],
       lines: [
         { name: "3D", panel: 0, x: page.y, y: reference, colour: "var(--reference)", kind: "points" },
-        { name: two, panel: 0, x: page.y, y: rom, colour: "var(--rom)", kind: "line" },
+        { name: two, panel: 0, x: page.y, y: rom, colour: modelColour(), kind: "line" },
       ],
     });
     words.textContent = `Variant ${page.variants[chosen.variant]}, ${placeWords(page.i[i] - 1, page.j[j] - 1)} (the shown cell nearest to the chosen place), `

@@ -17,7 +17,7 @@ function samples(host) {
     const limits = limit === null ? [] : all.some((k) => up.values[k] < 0) ? [-limit, limit] : [limit];
     const points = (which, name, colour, kind) => ({ name, panel: 0, which, x: which.map((k) => across.values[k]), y: which.map((k) => up.values[k]), colour, kind });
     const lines = [
-      points(within, limit === null ? "sample" : "within the band", "var(--rom)", "points"),
+      points(within, limit === null ? "sample" : "within the band", "var(--model-0)", "points"),
       points(beyond, "beyond", "var(--difference)", "crosses"),
     ];
     const [least, most] = extent([...lines.map((line) => line.y), limits]);

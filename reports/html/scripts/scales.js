@@ -46,7 +46,7 @@ function extent(arrays) {
 
 const VIRIDIS = ["#440154", "#482878", "#3e4989", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"];
 const DIVERGING = ["#053061", "#2166ac", "#4393c3", "#92c5de", "#d1e5f0", "#f7f7f7", "#fddbc7", "#f4a582", "#d6604d", "#b2182b", "#67001f"];
-const MISSING = "#b0b0b0";
+const MISSING = [176, 176, 176];
 
 // 256 colours between some, each as [red, green, blue].
 function ramp(colours) {

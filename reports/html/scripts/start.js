@@ -71,7 +71,7 @@ document.querySelectorAll("main table").forEach((table) => {
   filterable(table);
   sortable(table);
 });
+fillBar?.(document.getElementById("choice"));
 document.querySelectorAll("[data-interactive]").forEach((host) => PICTURES[host.dataset.interactive](host));
-PREPARED.forEach((prepare) => prepare());
 unfolding();
 document.documentElement.dataset.scripts = "ready";

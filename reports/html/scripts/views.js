@@ -9,7 +9,7 @@ function frame(host) {
   const controls = element("div", { className: "controls" });
   const place = element("div", { className: "plot", role: "figure", "aria-label": host.dataset.label });
   const words = element("p", { className: "readout", "aria-live": "polite" });
-  host.append(controls, place, words);
+  host.querySelector("details").append(controls, place, words);
   host.hidden = false;
   return { controls, place, words };
 }

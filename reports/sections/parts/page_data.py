@@ -1,18 +1,22 @@
-"""Data of interactive pictures: packed fields of both models on all cells, and all rows of metrics.json."""
+"""Data of interactive pictures: packed fields of all models on all cells, and all rows of metrics.json."""
 
 import base64
+import json
 import zlib
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from cases.arrays import Floats
 from cases.fields import FIELDS, Field
+from cases.results.comparison_file import REFERENCE, ROM, variable
 from cases.results.metric_row import MetricRow
 from cases.statistics import statistic_of
 from reports.result.load import Comparison
-from reports.result.metrics import Metrics
+from reports.sections.parts.models import headed
 from reports.wording.numbers import DIFFERENCE_UNITS
 from reports.wording.words import field_of, quantity_words, statistic_words
 
@@ -58,7 +62,6 @@ def pack(values: Floats) -> Packed:
     return Packed(values.shape, low, step, base64.b64encode(zlib.compress(octets, 6)).decode())
 
 
-MODELS = ("reference", "rom")
 SHOWN = ("pressure", "radius", "sector_flow_rate", "profile_exponent", "section_flow_rate")
 LARGEST_EXPONENT = 100.0  # beyond, a profile is flat to the eye, and one such value would coarsen all others
 
@@ -68,6 +71,7 @@ def page_data(comparison: Comparison) -> dict[str, Any]:
     data = comparison.fields
     return {
         "variants": comparison.variants,
+        "models": [{"name": name, "label": headed(comparison, name)} for name in comparison.models],
         "time": digits(data["time"].values),
         "named": [
             {"name": name, "state": state}
@@ -81,7 +85,7 @@ def page_data(comparison: Comparison) -> dict[str, Any]:
         "calcified": [
             pack(data["calcified"].sel(variant=name).values).plain() for name in comparison.variants
         ],
-        "fields": {name: both_models(comparison, FIELDS[name], data) for name in SHOWN},
+        "fields": {name: all_models(comparison, FIELDS[name], _fields) for name in SHOWN},
     }
 
 
@@ -90,23 +94,36 @@ def digits(values: Floats) -> list[float]:
     return [float(f"{value:.6g}") for value in values]
 
 
-def both_models(comparison: Comparison, field: Field, data: Any) -> dict[str, Any]:
-    """Words, units and packed values of one quantity, a list over the variants for each model."""
+def all_models(
+    comparison: Comparison, field: Field, data: Callable[[Comparison], xr.Dataset]
+) -> dict[str, Any]:
+    """Words, units and packed values of one quantity, a list over the variants for each model.
+
+    `data` returns where a comparison holds the quantity's values, of the reference and of the model in view.
+    """
     unit, factor = DIFFERENCE_UNITS[field.unit]
+
+    def packed(seen: Comparison, name: str) -> list[dict[str, object]]:
+        values = data(seen)[variable(name, field.name)]
+        return [
+            pack(_shown(field, values.sel(variant=variant).values)).plain() for variant in comparison.variants
+        ]
+
     return {
         "label": field.label,
         "symbol": field.symbol,
         "unit": "" if field.display_unit == "1" else field.display_unit,
         "difference_unit": unit,
         "difference_factor": factor / field.display_factor,
-        **{
-            model: [
-                pack(_shown(field, data[f"{model}_{field.name}"].sel(variant=name).values)).plain()
-                for name in comparison.variants
-            ]
-            for model in MODELS
+        "values": {
+            REFERENCE: packed(comparison, REFERENCE),
+            **{model: packed(comparison.of(model), ROM) for model in comparison.models},
         },
     }
+
+
+def _fields(comparison: Comparison) -> xr.Dataset:
+    return comparison.fields
 
 
 def _shown(field: Field, values: Floats) -> Floats:
@@ -119,17 +136,21 @@ def _shown(field: Field, values: Floats) -> Floats:
 _NUMBERS = ("i", "j", "t_s", "reference", "rom", "error", "band")
 
 
-def metric_columns(metrics: Metrics) -> dict[str, Any]:
-    """Return all rows by columns; words that occur often stand once."""
-    return {
-        "variant": _coded([row.variant for row in metrics.rows]),
-        "quantity": _coded([quantity_words(row.quantity) for row in metrics.rows]),
-        "statistic": _coded([_statistic(row) for row in metrics.rows]),
-        "status": _coded([row.status for row in metrics.rows]),
-        "unit": _coded([_display(row)[0] for row in metrics.rows]),
-        "relative": [statistic_of(row.statistic).relative for row in metrics.rows],
-        **{name: [_number(row, name) for row in metrics.rows] for name in _NUMBERS},
+def metric_columns(comparison: Comparison) -> str:
+    """Return all rows of all models by columns as base 64 of zlib of JSON; words that recur stand once."""
+    rows = [row for model in comparison.models for row in comparison.of(model).metrics.rows]
+    columns = {
+        **({"model": _coded([row.model for row in rows])} if len(comparison.models) > 1 else {}),
+        "variant": _coded([row.variant for row in rows]),
+        "quantity": _coded([quantity_words(row.quantity) for row in rows]),
+        "statistic": _coded([_statistic(row) for row in rows]),
+        "status": _coded([row.status for row in rows]),
+        "unit": _coded([_display(row)[0] for row in rows]),
+        "relative": [statistic_of(row.statistic).relative for row in rows],
+        **{name: [_number(row, name) for row in rows] for name in _NUMBERS},
     }
+    text = json.dumps(columns, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    return base64.b64encode(zlib.compress(text.encode(), 6)).decode()
 
 
 def _statistic(row: MetricRow) -> str:
