@@ -157,8 +157,8 @@ def section(comparison: Comparison) -> Blocks:
         "artery-turned",
         "artery",
         "The artery, to be turned",
-        "Drag to turn, scroll to come nearer, point at the wall for its values; both models turn together. "
-        "Without a pointer, use the slider.",
+        "Drag to turn, point at the wall for its values, click to choose a place; both models turn together. "
+        "Without a pointer, use the sliders.",
         {
             "artery": {
                 "rest_radius": 1e3 * seen.rest_radius,

@@ -124,7 +124,6 @@ def section(comparison: Comparison) -> Blocks:
         "maps-anytime",
         "maps",
         "The maps at any time",
-        "Choose a variant and a quantity, move the time slider or let it play; point at a map for its "
-        "values.",
+        "Point at a map for its values; a click chooses the place and opens its curves.",
     )
     return *told, slider, _figure(comparison, [name for _, name in shown])

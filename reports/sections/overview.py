@@ -85,8 +85,8 @@ def section(comparison: Comparison) -> Blocks:
         Interactive(
             "curves-anywhere",
             "curves",
-            "Any cell over the cycle",
-            "Choose a variant, a quantity and a cell; point at the curves for their values.",
+            "The chosen place over the cycle",
+            "Point at the curves for their values, click to choose a time.",
         )
     ]
     told = left_out(comparison, variants, "value over the cycle there")

@@ -106,8 +106,7 @@ def section(comparison: Comparison) -> Blocks:
             "profiles-anytime",
             "profiles",
             "The profile at any time",
-            "Choose a variant and a cell, move the time slider or let it play; point at the curves for "
-            "their values.",
+            "Of the shown cell that is nearest to the chosen place; point at the curves for their values.",
             {"profiles": all_models(comparison, _FIELD, lambda view: view.profiles)},
         ),
         *told,

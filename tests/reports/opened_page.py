@@ -37,12 +37,12 @@ def open_page(browser: Browser, path: Path, scripts: bool = True, **how: Any) ->
 
 
 def overflowing(page: Page) -> list[str]:
-    """Elements that reach beyond the page's edge, or whose content has to be scrolled sideways."""
+    """Elements that reach beyond the page's edge, but tables in a frame that scrolls sideways."""
     found: list[str] = page.evaluate(
         """() => [...document.querySelectorAll("body *")]
-            .filter((e) => e.checkVisibility() && !e.closest("dialog, svg, .plot, .unseen"))
+            .filter((e) => e.checkVisibility() && !e.closest("dialog, svg, .plot, .unseen, .scroll > *"))
             .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
-                || (getComputedStyle(e).overflowX !== "visible" && e.scrollWidth > e.clientWidth + 1))
+                || (!e.matches(".scroll") && getComputedStyle(e).overflowX !== "visible" && e.scrollWidth > e.clientWidth + 1))
             .map((e) => `${e.tagName} ${e.id} ${e.className} ${e.textContent.slice(0, 40)}`)"""
     )
     wide = page.evaluate("document.documentElement.scrollWidth > innerWidth")

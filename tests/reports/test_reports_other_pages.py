@@ -40,7 +40,7 @@ def test_nothing_is_wrong_with_a_page(
     one = open_page(browser, path, scripts=scripts, viewport=size, color_scheme=scheme, bypass_csp=True)
     if scripts:
         one.page.locator("#samples-any").scroll_into_view_if_needed()
-        one.page.wait_for_selector("#samples-any .main-svg", state="attached")
+        one.page.wait_for_selector("#samples-any .plot svg", state="attached")
     assert overflowing(one.page) == []
     assert serious_defects(one.page) == []
     assert one.console == []
@@ -80,20 +80,18 @@ def test_the_picture_shows_the_chosen_samples(browser: Browser, pages: tuple[Pat
     )
     done = samples[samples["status"] == "ok"]
     drawn = one.page.evaluate(
-        "document.querySelector('#samples-any .plot').data.map((trace) => [[...trace.x], [...trace.y]])"
+        "document.querySelector('#samples-any .plot').drawn.map((line) => [[...line.x], [...line.y]])"
     )
     ok = (done["radius_max_error"].abs() <= synthetic_sweep.LIMIT).to_numpy()
     for (x, y), which in zip(drawn, (ok, ~ok), strict=True):
         np.testing.assert_allclose(x, np.degrees(done["calcification.phi.extent"][which]), rtol=1e-5)
         np.testing.assert_allclose(y, 100 * done["radius_max_error"][which], rtol=1e-5, atol=1e-9)
     assert f"{ok.sum()} of {len(done)} within" in host.locator(".readout").inner_text()
-    box = one.page.locator("#samples-any .nsewdrag").first.bounding_box()
-    point = one.page.locator("#samples-any .points path").first.bounding_box()
-    assert box
+    point = one.page.locator("#samples-any .points circle").first.bounding_box()
     assert point
     one.page.mouse.move(point["x"] + point["width"] / 2, point["y"] + point["height"] / 2)
-    one.page.wait_for_selector("#samples-any .hoverlayer .hovertext")
-    said = one.page.locator("#samples-any .hoverlayer").text_content() or ""
+    one.page.wait_for_selector("#samples-any .tip:not([hidden])")
+    said = one.page.locator("#samples-any .tip").text_content() or ""
     assert "sample " in said
     assert "resistance of the outlet" in said
     one.page.context.close()

@@ -55,10 +55,12 @@ def test_smooth_fields_take_a_third_of_their_whole_numbers() -> None:
 def test_the_page_has_every_metric_and_every_cell(finished: tuple[Path, list[dict[str, Any]]]) -> None:
     directory, rows = finished
     data = json.loads(report(load(directory)).page_data())
-    assert len(data["metrics"]["error"]) == len(rows)
+    columns = json.loads(zlib.decompress(base64.b64decode(data["metrics"])))
+    assert len(columns["error"]) == len(rows)
+    assert data["models"] == [{"name": "rom", "label": "2D"}]
     field = data["fields"]["radius"]
     assert field["unit"] == "mm"
-    assert [packed["shape"] for packed in field["rom"]] == [[11, 12, 8]] * 3
+    assert [packed["shape"] for packed in field["values"]["rom"]] == [[11, 12, 8]] * 3
     assert data["named"][0]["name"] == "systole"
 
 
@@ -70,6 +72,6 @@ def test_plug_flow_does_not_coarsen_other_exponents(
     fields = synthetic.fields(small)
     fields["rom_profile_exponent"][0, 0, 0, 0] = value
     synthetic.dataset(small, fields).to_netcdf(tmp_path / "comparison.nc")
-    data = json.loads(report(load(tmp_path)).page_data())["fields"]["profile_exponent"]["rom"][0]
+    data = json.loads(report(load(tmp_path)).page_data())["fields"]["profile_exponent"]["values"]["rom"][0]
     back = unpack(Packed(tuple(data["shape"]), data["low"], data["step"], data["data"]))
     assert back[0, 0, 0] == pytest.approx(shown, nan_ok=True)

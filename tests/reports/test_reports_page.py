@@ -19,12 +19,16 @@ def _open(browser: Browser, directory: Path, **how: Any) -> Opened:
     return open_page(browser, directory / "report.html", **how)
 
 
+def _unfold(page: Page) -> None:
+    page.evaluate("document.querySelectorAll('main details').forEach((fold) => { fold.open = true; })")
+
+
 def _draw_everything(page: Page) -> None:
+    _unfold(page)
     for host in page.query_selector_all("[data-interactive]"):
         host.scroll_into_view_if_needed()
-        if host.get_attribute("data-interactive") != "metrics":
-            page.wait_for_selector(f"#{host.get_attribute('id')} .main-svg", state="attached")
-    page.wait_for_function("document.querySelector('#artery-turned .readout').textContent.length > 0")
+        page.wait_for_function("(host) => host.querySelector('.readout').textContent.length > 0", arg=host)
+    page.wait_for_function("[...document.querySelectorAll('figure img')].every((i) => i.src.length > 1000)")
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +54,9 @@ def test_it_opens_with_its_own_security_policy_and_asks_for_nothing(
 
 
 @pytest.mark.parametrize(
-    ("size", "scheme"), [(WIDE, "light"), (NARROW, "dark")], ids=["1400 px, light", "400 px, dark"]
+    ("size", "scheme"),
+    [(size, scheme) for size in (WIDE, NARROW) for scheme in ("light", "dark")],
+    ids=["1400 px, light", "1400 px, dark", "400 px, light", "400 px, dark"],
 )
 def test_nothing_overflows_and_axe_finds_nothing_serious(
     browser: Browser, finished: Finished, size: dict[str, int], scheme: str
@@ -66,7 +72,9 @@ def test_nothing_overflows_and_axe_finds_nothing_serious(
 def test_without_scripts_everything_is_there(browser: Browser, finished: Finished) -> None:
     for size in (WIDE, NARROW):
         one = _open(browser, finished[0], viewport=size, java_script_enabled=False)
-        assert one.page.locator("[data-interactive]:visible").count() == 0
+        assert one.page.locator("[data-interactive]:visible, #choice:visible").count() == 0
+        for fold in one.page.locator("main details.fold > summary").all():
+            fold.click()
         assert one.page.locator("main img:visible").count() == one.page.locator("main figure").count() > 10
         assert one.page.locator("main table:visible").count() == one.page.locator("main table").count() > 10
         assert "bands hold" in one.page.locator("#main").inner_text()
@@ -75,7 +83,7 @@ def test_without_scripts_everything_is_there(browser: Browser, finished: Finishe
 
 def test_print_leaves_out_what_cannot_be_printed(opened: Opened) -> None:
     opened.page.emulate_media(media="print")
-    assert opened.page.locator(".controls:visible, .interactive:visible, nav:visible").count() == 0
+    assert opened.page.locator(".controls:visible, .interactive:visible, .bar:visible").count() == 0
     assert opened.page.locator("main img:visible").count() > 10
     opened.page.emulate_media(media="screen")
 
@@ -108,130 +116,219 @@ def test_every_metric_can_be_found(opened: Opened, finished: Finished) -> None:
     assert set(host.locator("tbody td.status").all_inner_texts()) == {"FAIL"}
 
 
-def _set(page: Page, slider: str, value: int) -> None:
-    page.locator(slider).evaluate(
+def _set(page: Page, label: str, value: int, place: str = "#choice") -> None:
+    page.locator(place).get_by_label(label, exact=True).evaluate(
         "(input, value) => { input.value = value; input.dispatchEvent(new Event('input')); }", value
     )
 
 
+def _choose(page: Page, label: str, value: str) -> None:
+    page.locator("#choice").get_by_label(label, exact=True).select_option(label=value)
+
+
+def _await_words(page: Page, key: str, *words: str) -> None:
+    page.wait_for_function(
+        "([key, words]) => words.every((word) => document.querySelector(`#${key} .readout`).textContent"
+        ".replaceAll('\u00a0', ' ').includes(word))",
+        arg=[key, list(words)],
+    )
+
+
+def _data(directory: Path) -> Any:
+    return xr.open_dataset(directory / "comparison.nc", decode_times=False)
+
+
 def test_the_time_slider_shows_the_maps_of_that_state(opened: Opened, finished: Finished) -> None:
-    page, host = opened.page, opened.page.locator("#maps-anytime")
-    host.get_by_label("quantity").select_option(label="lumen radius")
-    host.get_by_label("variant", exact=True).select_option(label="local")
+    page = opened.page
+    page.locator("#maps-anytime").scroll_into_view_if_needed()
+    _choose(page, "quantity", "lumen radius")
+    _choose(page, "variant", "local")
     for state in (0, 7):
-        _set(page, "#maps-anytime input[type=range]", state)
-        with xr.open_dataset(finished[0] / "comparison.nc", decode_times=False) as data:
+        _set(page, "time", state)
+        with _data(finished[0]) as data:
             local = data.sel(variant="local").isel(time=state)
             t = float(local["time"])
-            three, two = (1e3 * local[f"{model}_radius"].values.T for model in ("reference", "rom"))
-        page.wait_for_function(
-            "t => document.querySelector('#maps-anytime .readout').textContent.startsWith(`t = ${t}`)",
-            arg=f"{t:.3f}",
-        )
+            three, two = (1e3 * local[f"{model}_radius"].values for model in ("reference", "rom"))
+        _await_words(page, "maps-anytime", f"lumen radius, variant local, t = {t:.3f} s")
         drawn = page.evaluate(
-            "() => document.querySelector('#maps-anytime .plot').data"
-            ".filter((trace) => trace.type === 'heatmap').map((trace) => [trace.z, trace.zmin, trace.zmax])"
+            "() => document.querySelector('#maps-anytime .plot').drawn"
+            ".map((panel) => [[...panel.values], panel.low, panel.high])"
         )
         step = np.ptp([three, two]) / 60000 + 1e-6
         for (z, low, high), expected in zip(drawn, (three, two, 1e3 * (two - three)), strict=True):
-            np.testing.assert_allclose(z, expected, atol=1500 * step if expected.min() < 1 else step)
+            np.testing.assert_allclose(z, expected.ravel(), atol=1500 * step if expected.min() < 1 else step)
             assert low <= np.min(z) + 1e-9
             assert high >= np.max(z) - 1e-9
         assert drawn[2][1] == -drawn[2][2]
 
 
+def test_the_maps_have_the_colours_of_their_values(opened: Opened) -> None:
+    page = opened.page
+    page.locator("#maps-anytime").scroll_into_view_if_needed()
+    _choose(page, "variant", "local")
+    _set(page, "time", 3)
+    _set(page, "x", 0)
+    _await_words(page, "maps-anytime", "t = 0.")
+    page.wait_for_timeout(300)
+    # the largest and the least value of a panel have the ends of its colours
+    found = page.evaluate(
+        """() => {
+        const place = document.querySelector("#maps-anytime .plot"), canvas = place.querySelector("canvas");
+        const pen = canvas.getContext("2d");
+        const seen = new Set();
+        const { data } = pen.getImageData(0, 0, canvas.width, canvas.height);
+        for (let k = 0; k < data.length; k += 4) seen.add(`${data[k]},${data[k + 1]},${data[k + 2]}`);
+        return ["68,1,84", "253,231,37"].map((colour) => seen.has(colour));
+    }"""
+    )
+    assert found == [True, True]
+
+
 def test_pointing_at_curves_and_maps_tells_values(opened: Opened) -> None:
     page = opened.page
-    for key, words in (
-        ("curves-anywhere", ("3D", "2D", "mm")),
-        ("maps-anytime", ("x = ", "φ = ", "mm")),
+    _choose(page, "quantity", "lumen radius")
+    for key, target, words in (
+        ("curves-anywhere", "svg", ("t = ", "3D", "2D", "mm")),
+        ("maps-anytime", "canvas", ("x = ", "φ = ", "mm")),
+        ("artery-turned", "canvas >> nth=1", ("x = ", "R ", "mm", "kPa")),
     ):
-        page.locator(f"#{key} .plot").scroll_into_view_if_needed()
-        box = page.locator(f"#{key} .nsewdrag").first.bounding_box()
+        picture = page.locator(f"#{key} .plot {target}").first
+        picture.scroll_into_view_if_needed()
+        box = picture.bounding_box()
         assert box is not None
-        page.mouse.move(box["x"] + box["width"] / 3, box["y"] + box["height"] / 2)
-        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-        page.wait_for_selector(f"#{key} .hoverlayer .hovertext, #{key} .hoverlayer .legend")
-        said = page.locator(f"#{key} .hoverlayer").text_content() or ""
+        page.mouse.move(box["x"] + box["width"] / 4, box["y"] + box["height"] / 2)
+        page.mouse.move(box["x"] + box["width"] / 4 + 3, box["y"] + box["height"] / 2)
+        said = page.locator(f"#{key} .plot > .tip").first.inner_text()
         assert all(word in said for word in words), said
 
 
+def test_a_click_on_the_map_opens_that_places_curves(opened: Opened, finished: Finished) -> None:
+    page = opened.page
+    host = page.locator("#maps-anytime")
+    host.scroll_into_view_if_needed()
+    _choose(page, "variant", "local")
+    _choose(page, "quantity", "lumen radius")
+    host.locator("details details").evaluate("(fold) => { fold.open = false; }")
+    box = host.locator("canvas").first.bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] + 52, box["y"] + 40)  # near the inlet, near the last row
+    curves = host.locator("details details .plot")
+    curves.locator("svg").wait_for()
+    page.wait_for_timeout(400)
+    where = dict(part.split("=") for part in page.url.partition("#")[2].split("&") if "=" in part)
+    i, j = int(where["i"]), int(where["j"])
+    assert i <= 2
+    assert j >= 7
+    with _data(finished[0]) as data:
+        cell = data.sel(variant="local").isel(x=i - 1, phi=j - 1)
+        for line, model in zip(curves.evaluate("(place) => place.drawn.map((line) => [...line.y])"), ("reference", "rom"), strict=False):
+            np.testing.assert_allclose(line, 1e3 * cell[f"{model}_radius"].values, atol=2e-4)
+
+
+def test_the_address_states_the_choice(browser: Browser, finished: Finished) -> None:
+    """A page opened at an address shows what it states; another choice changes it, and a link keeps it."""
+    one = open_page(browser, finished[0] / "report.html", viewport=WIDE)
+    page = one.page
+    address = page.url
+    page.goto("about:blank")
+    page.goto(f"{address}#maps&variant=axisymmetric&quantity=pressure&time=0.3&i=5&j=3")
+    page.wait_for_selector("html[data-scripts=ready]", state="attached")
+    with _data(finished[0]) as data:
+        t = float(data["time"].sel(time=0.3, method="nearest"))
+    _await_words(page, "maps-anytime", f"pressure, variant axisymmetric, t = {t:.3f} s")
+    assert page.evaluate("document.getElementById('maps').getBoundingClientRect().top") < 900
+    _set(page, "φ", 5)
+    page.wait_for_function("location.hash.endsWith('&i=5&j=6')")
+    page.locator("#contents a", has_text="Provenance").click()
+    page.wait_for_function("location.hash.startsWith('#provenance&variant=axisymmetric&')")
+    assert one.console == []
+    page.context.close()
+
+
+def test_what_an_address_cannot_mean_is_passed_over(browser: Browser, finished: Finished) -> None:
+    one = open_page(browser, finished[0] / "report.html", viewport=WIDE)
+    page = one.page
+    address = page.url
+    page.goto("about:blank")
+    page.goto(f"{address}#nowhere&variant=nobody&time=soon&i=0&j=999&__proto__=1&quantity=radius")
+    page.wait_for_selector("html[data-scripts=ready]", state="attached")
+    page.locator("#curves-anywhere").scroll_into_view_if_needed()
+    _await_words(page, "curves-anywhere", "lumen radius, variant local")
+    assert one.console == []
+    page.context.close()
+
+
 def test_the_error_over_gamma_is_the_comparisons_own(opened: Opened, finished: Finished) -> None:
-    page, host = opened.page, opened.page.locator("#exponents-anywhere")
-    host.get_by_label("variant", exact=True).select_option(label="local")
-    host.get_by_label("time", exact=True).select_option(index=1)
-    host.get_by_label("cell i").select_option(label="6")
-    host.get_by_label("row j").select_option(label="4")
-    page.wait_for_function(
-        "document.querySelector('#exponents-anywhere .readout').textContent"
-        ".startsWith('Variant local, i = 6, j = 4')"
-    )
-    page.wait_for_timeout(200)
-    plot = "document.querySelector('#exponents-anywhere .plot')"
-    x, y = page.evaluate(f"[[...{plot}.data[0].x], [...{plot}.data[0].y]]")
-    with xr.open_dataset(finished[0] / "comparison.nc", decode_times=False) as data:
+    page = opened.page
+    page.locator("#exponents-anywhere").scroll_into_view_if_needed()
+    with _data(finished[0]) as data:
+        state = int(np.abs(data["time"].values - data.attrs["compare_times_s"][1]).argmin())
+        x, phi = float(1e3 * data["x"][5]), float(np.degrees(data["phi"][3]))
         curve = (
             data["reference_profile_error_curve"]
             .sel(variant="local")
             .isel(compare_time=1, compare_x=1, compare_phi=1)
         )
-        np.testing.assert_allclose(x, curve["exponent"], rtol=1e-5)
-        np.testing.assert_allclose(y, 100 * curve, atol=2e-3)
-    assert "error %{y" in page.evaluate(f"{plot}.data[0].hovertemplate")
+        exponents, expected = curve["exponent"].values, 100 * curve.values
+    _choose(page, "variant", "local")
+    _set(page, "time", state)
+    _set(page, "x", 5)
+    _set(page, "φ", 3)
+    _await_words(page, "exponents-anywhere", f"Variant local, x = {x:.1f} mm, φ = {phi:.0f}°")
+    page.wait_for_timeout(200)
+    plot = "document.querySelector('#exponents-anywhere .plot')"
+    found, errors = page.evaluate(f"[[...{plot}.drawn[0].x], [...{plot}.drawn[0].y]]")
+    np.testing.assert_allclose(found, exponents, rtol=1e-5)
+    np.testing.assert_allclose(errors, expected, atol=2e-3)
 
 
 def test_curves_are_those_of_the_chosen_cell(opened: Opened, finished: Finished) -> None:
-    page, host = opened.page, opened.page.locator("#curves-anywhere")
-    host.get_by_label("variant", exact=True).select_option(label="axisymmetric")
-    host.get_by_label("quantity").select_option(label="pressure")
-    _set(page, "#curves-anywhere input >> nth=0", 4)
-    _set(page, "#curves-anywhere input >> nth=1", 2)
-    page.wait_for_function(
-        "document.querySelector('#curves-anywhere .readout').textContent.startsWith('pressure, variant axis')"
-    )
-    page.wait_for_timeout(200)
-    drawn = page.evaluate(
-        "document.querySelector('#curves-anywhere .plot').data.map((trace) => [...trace.y])"
-    )
-    with xr.open_dataset(finished[0] / "comparison.nc", decode_times=False) as data:
+    page = opened.page
+    page.locator("#curves-anywhere").scroll_into_view_if_needed()
+    _choose(page, "variant", "axisymmetric")
+    _choose(page, "quantity", "pressure")
+    _set(page, "x", 4)
+    _set(page, "φ", 2)
+    with _data(finished[0]) as data:
         cell = data.sel(variant="axisymmetric").isel(x=4, phi=2)
+        where = f"x = {1e3 * float(cell['x']):.1f} mm, φ = {np.degrees(float(cell['phi'])):.0f}°"
+        _await_words(page, "curves-anywhere", f"pressure, variant axisymmetric, {where}")
+        page.wait_for_timeout(200)
+        drawn = page.evaluate(
+            "document.querySelector('#curves-anywhere .plot').drawn.map((line) => [...line.y])"
+        )
         for y, model in zip(drawn, ("reference", "rom"), strict=False):
             np.testing.assert_allclose(y, 1e-3 * cell[f"{model}_pressure"].values, atol=2e-4)
 
 
-def test_the_artery_turns_and_changes_its_colours(opened: Opened) -> None:
+def test_both_arteries_turn_together_and_stay_so(opened: Opened) -> None:
     page, host = opened.page, opened.page.locator("#artery-turned")
     host.scroll_into_view_if_needed()
-    page.wait_for_selector("#artery-turned canvas", state="attached")
     plot = "document.querySelector('#artery-turned .plot')"
-    assert page.evaluate(f"{plot}.data.map((trace) => trace.type)") == ["surface", "surface"]
-    before = page.evaluate(f"{plot}.data[0].surfacecolor[0][0]")
+    pixels = f"[...{plot}.querySelectorAll('.pair canvas')].map((c) => c.toDataURL())"
     host.get_by_label("coloured by").select_option(label="pressure")
-    page.wait_for_function(f"{plot}.data[0].surfacecolor[0][0] !== {json.dumps(before)}")
-    eye = page.evaluate(f"{plot}.layout.scene.camera.eye.y")
-    _set(page, "#artery-turned input >> nth=1", 0)
-    page.wait_for_function(f"Math.abs({plot}.layout.scene2.camera.eye.y - {json.dumps(eye)}) > 0.1")
-
-
-def test_a_browser_without_webgl_says_so(browser: Browser, finished: Finished) -> None:
-    context = browser.new_context(viewport=WIDE)
-    context.add_init_script(
-        "const own = HTMLCanvasElement.prototype.getContext;"
-        "HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {"
-        " return kind.startsWith('webgl') ? null : own.call(this, kind, ...rest); };"
-    )
-    page = context.new_page()
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.goto((finished[0] / "report.html").as_uri())
-    assert "draws no WebGL" in page.locator("#artery-turned").inner_text()
-    assert page.locator("#artery-still img").is_visible()
-    assert errors == []
-    context.close()
+    page.wait_for_function(f"{plot}.drawn.shades.reference[0] > 5")
+    before = page.evaluate(pixels)
+    first = host.locator(".pair canvas").first
+    box = first.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] / 2 + 40, box["y"] + box["height"] / 2 + 30, steps=3)
+    page.mouse.up()
+    page.wait_for_function(f"{plot}.drawn.aim.tilt === 32")
+    assert all(a != b for a, b in zip(before, page.evaluate(pixels), strict=True))
+    aim = page.evaluate(f"{plot}.drawn.aim")
+    _set(page, "time", 9)
+    _await_words(page, "artery-turned", page.locator("#choice output").nth(1).inner_text().split(",")[0])
+    assert page.evaluate(f"{plot}.drawn.aim") == aim
+    _set(page, "turn about the axis", 0, "#artery-turned")
+    page.wait_for_function(f"{plot}.drawn.aim.turn === 0")
 
 
 def test_a_figure_opens_at_full_size_on_a_narrow_screen(browser: Browser, finished: Finished) -> None:
     one = _open(browser, finished[0], viewport=NARROW)
+    _unfold(one.page)
     figure = one.page.locator("figure").first
     figure.get_by_role("button", name="Enlarge").click()
     assert one.page.locator("dialog[open] img").bounding_box()["width"] > 900  # type: ignore[index]
@@ -248,3 +345,41 @@ def test_colours_can_be_chosen(opened: Opened) -> None:
     choice.select_option(label="light")
     assert opened.page.evaluate(paper) == "rgb(255, 255, 255)"
     choice.select_option(index=0)
+
+
+def test_figures_take_the_colours_of_the_page(opened: Opened) -> None:
+    page = opened.page
+    figure = page.locator("figure img").first
+    figure.scroll_into_view_if_needed()
+    page.wait_for_function("document.querySelector('figure img').src.length > 1000")
+    corner = """async () => {
+        const image = document.querySelector("figure img");
+        const canvas = document.createElement("canvas");
+        const pen = canvas.getContext("2d");
+        await image.decode();
+        pen.drawImage(image, 0, 0, 300, 150);
+        return [...pen.getImageData(2, 2, 1, 1).data];
+    }"""
+    for name, paper in (("dark", [21, 24, 28, 255]), ("light", [255, 255, 255, 255])):
+        page.locator("#theme select").select_option(label=name)
+        page.wait_for_timeout(200)
+        assert page.evaluate(corner) == paper
+    page.locator("#theme select").select_option(index=0)
+
+
+def test_a_wide_table_scrolls_beside_its_first_column(browser: Browser, finished: Finished) -> None:
+    one = _open(browser, finished[0], viewport=NARROW)
+    frame = one.page.locator(".scroll:has(> #bands)")
+    frame.evaluate("(frame) => { frame.scrollLeft = 150; }")
+    left = frame.evaluate("(frame) => frame.getBoundingClientRect().left")
+    cells = "(cells) => cells.map((cell) => cell.getBoundingClientRect().left)"
+    assert frame.evaluate("(frame) => frame.scrollLeft") == 150
+    assert frame.locator("tbody th").evaluate_all(cells) == pytest.approx([left] * frame.locator("tbody th").count(), abs=1)
+    one.page.context.close()
+
+
+def test_the_first_picture_is_within_three_screens_of_a_telephone(browser: Browser, finished: Finished) -> None:
+    one = _open(browser, finished[0], viewport=NARROW)
+    top = one.page.locator("figure, [data-interactive]").first.evaluate("(e) => e.getBoundingClientRect().top")
+    assert top < 3 * NARROW["height"]
+    one.page.context.close()

@@ -203,7 +203,7 @@ def test_a_finished_sweep_computes_nothing(whole, monkeypatch):
 
 
 NOT_NEEDED = (
-    *("SALib", "distributed", "jinja2", "matplotlib", "numba", "pandas", "pint", "plotly", "pyvista"),
+    *("SALib", "distributed", "jinja2", "matplotlib", "numba", "pandas", "pint", "pyvista"),
     *("rich", "scipy", "typst", "xarray"),
 )
 LOADED = """

@@ -15,7 +15,7 @@ from validation.runs.provenance import checksum
 from validation.sweep.folder import ACCOUNT, PAGE_FILES, SAMPLES, STUDY, begun
 
 DRAWN_BY = ("cases", "reports")  # packages with all their files
-LIBRARIES = ("jinja2", "matplotlib", "numpy", "pandas", "plotly", "pyarrow", "pydantic", "typst")
+LIBRARIES = ("jinja2", "matplotlib", "numpy", "pandas", "pyarrow", "pydantic", "typst")
 
 
 def up_to_date_page(folder: Path) -> Path:

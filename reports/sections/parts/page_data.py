@@ -16,6 +16,7 @@ from cases.results.comparison_file import REFERENCE, ROM, variable
 from cases.results.metric_row import MetricRow
 from cases.statistics import statistic_of
 from reports.result.load import Comparison
+from reports.sections.parts.models import headed
 from reports.wording.numbers import DIFFERENCE_UNITS
 from reports.wording.words import field_of, quantity_words, statistic_words
 
@@ -70,9 +71,7 @@ def page_data(comparison: Comparison) -> dict[str, Any]:
     data = comparison.fields
     return {
         "variants": comparison.variants,
-        "models": [
-            {"name": name, "label": "2D" if name == ROM else f"2D {name}"} for name in comparison.models
-        ],
+        "models": [{"name": name, "label": headed(comparison, name)} for name in comparison.models],
         "time": digits(data["time"].values),
         "named": [
             {"name": name, "state": state}
