@@ -21,7 +21,7 @@ from reports.figures.colours import LIMIT, QUIET, Dashes
 from reports.figures.sheet import Panel
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.70, 0.62, 0.46, 0.36
-_HEIGHT, _GAP = 0.78, 0.38  # inches
+_HEIGHT, _GAP = 0.56, 0.33  # inches
 _BOXES = (96, 56)
 _SCATTER = 1.96  # standard deviations: 19 of 20 of normal values
 _BIAS = "#b8480b"

@@ -20,7 +20,9 @@ _ON_DARK = {
     "#7b3294": "#c794dd",
     "#b8480b": "#f0935a",
 }
-_DIGITS = re.compile(r"(?<=[1-9]\.\d\d)\d+|(?<=\d0\.\d\d)\d+")  # a hundredth of a point is not seen; a scale below 1 stays whole
+_DIGITS = re.compile(
+    r"(?<=[1-9]\.\d\d)\d+|(?<=\d0\.\d\d)\d+"
+)  # a hundredth of a point is not seen; a scale below 1 stays whole
 _UNSEEN = re.compile(r'<\?.*?\?>|<!DOCTYPE[^>]*>|<!--.*?-->| id="(?!C\d)[\w.]+_\d+"', re.DOTALL)
 _FIRST_TAG = re.compile(r"(<svg\b[^>]*>)")
 

@@ -92,7 +92,9 @@ def _check_values(path: Path, dataset: xr.Dataset) -> None:
         _check_finite(path, dataset[name], infinite=name.endswith("profile_exponent"))  # of plug flow
 
 
-def read_profiles(path: Path, dataset: xr.Dataset, columns: Sequence[int], rows: Sequence[int]) -> xr.Dataset:
+def read_profiles(
+    path: Path, dataset: xr.Dataset, columns: Sequence[int], rows: Sequence[int], state: int
+) -> tuple[xr.Dataset, xr.Dataset]:
     """Read all models' axial velocity at some cells of an opened comparison.nc.
 
     Every chunk of the file is read once, whole, a variant at a time: to pick cells from the file itself
@@ -106,27 +108,31 @@ def read_profiles(path: Path, dataset: xr.Dataset, columns: Sequence[int], rows:
         The opened file.
     columns, rows : sequence of int
         Cells along x and φ, counted from 0.
+    state : int
+        Number of the state of the sections.
 
     Returns
     -------
-    xarray.Dataset
-        ``<model>_axial_velocity`` and that of the reference, each (variant, time, x, phi, y) in m/s.
+    (xarray.Dataset, xarray.Dataset)
+        ``<model>_axial_velocity`` and that of the reference in m/s: at those cells over the cycle, each
+        (variant, time, x, phi, y), and in those sections at one state, (variant, x, phi, y).
 
     Raises
     ------
     ReportError
         If a value anywhere is no finite number, though the reference is no sparse one.
     """
-    read = {}
+    rays, sections = {}, {}
     for name in (variable(of, "axial_velocity") for of in (REFERENCE, *reduced_models(path, dataset))):
-        parts = []
+        of_cells, of_sections = [], []
         for part in dataset[name]:
             part.load()
             if not (name.startswith("reference_") and dataset.attrs.get("sparse_reference")):
                 _check_finite(path, part)
-            parts.append(part.isel(x=columns, phi=rows).copy())  # a copy lets the whole go
-        read[name] = xr.concat(parts, "variant")
-    return xr.Dataset(read)
+            of_cells.append(part.isel(x=columns, phi=rows).copy())  # a copy lets the whole go
+            of_sections.append(part.isel(time=state, x=columns).copy())
+        rays[name], sections[name] = xr.concat(of_cells, "variant"), xr.concat(of_sections, "variant")
+    return xr.Dataset(rays), xr.Dataset(sections)
 
 
 def _check_finite(path: Path, values: xr.DataArray, infinite: bool = False) -> None:

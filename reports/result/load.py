@@ -18,7 +18,7 @@ from reports.result.dataset import Attributes, opened, read_attributes, read_pro
 from reports.result.metrics import Metrics, read_metrics
 from reports.result.strict_json import read_json
 
-DOMINANCE = "axial_dominance_radial"  # that a reference may lack
+DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")  # not in every model
 FIELDS = ("pressure", "radius", "sector_flow_rate", "section_flow_rate", "profile_exponent")
 
 
@@ -61,6 +61,8 @@ class Comparison:
         The same at columns `i`, all φ.
     profiles : xarray.Dataset
         Both models' axial velocity (m/s) at the shown cells over the cycle, over y = r/R.
+    sections : xarray.Dataset
+        The same all around the shown columns at the first named instant.
     maps : xarray.Dataset
         The fields at the named instants.
     error_curves : xarray.DataArray
@@ -94,6 +96,7 @@ class Comparison:
     fields: xr.Dataset
     curves: xr.Dataset
     profiles: xr.Dataset
+    sections: xr.Dataset
     maps: xr.Dataset
     error_curves: xr.DataArray
     pressure_range_over_section: xr.Dataset
@@ -166,10 +169,10 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
     check_consistency(directory, (variants, models), attributes, metrics, provenance)
     columns, rows = [k - 1 for k in attributes.i], [k - 1 for k in attributes.j]
     states = [int(np.abs(dataset["time"].values - t).argmin()) for _, t in attributes.times]
-    wanted = [variable(of, name) for of in (REFERENCE, *models) for name in (*FIELDS, DOMINANCE)]
+    wanted = [variable(of, name) for of in (REFERENCE, *models) for name in (*FIELDS, *DOMINANCE)]
     names = [name for name in wanted if name in dataset]
     fields = dataset[[*names, comparison_file.PROFILE_ERROR, CALCIFIED]].load()
-    profiles = read_profiles(path, dataset, columns, rows)
+    profiles, sections = read_profiles(path, dataset, columns, rows, states[0] if states else 0)
     views: dict[str, Comparison] = {}
     for model in models:
         seen = _in_view(fields, model)
@@ -184,6 +187,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
             fields=seen,
             curves=seen.isel(x=columns),
             profiles=_in_view(profiles, model),
+            sections=_in_view(sections, model),
             maps=seen.isel(time=states),
             error_curves=dataset[comparison_file.PROFILE_ERROR_CURVE].load(),
             pressure_range_over_section=_pressure_range(seen[_both(("pressure",))]),

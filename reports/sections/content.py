@@ -4,7 +4,7 @@ from reports.blocks import Report
 from reports.result.load import Comparison
 from reports.sections.order import SECTIONS
 from reports.sections.parts.page_data import page_data
-from reports.wording.numbers import counted, listed
+from reports.wording.numbers import listed
 
 
 def identity(comparison: Comparison) -> str:
@@ -19,13 +19,17 @@ def identity(comparison: Comparison) -> str:
     )
 
 
+def _models(comparison: Comparison) -> str:
+    if len(comparison.models) == 1:
+        return "A two-dimensional reduced-order model of the artery (2D)"
+    return f"Two-dimensional reduced-order models of the artery (2D: {listed(comparison.models)})"
+
+
 def report(comparison: Comparison) -> Report:
     """Compose the report of a comparison; every figure is drawn here."""
     return Report(
         title=comparison.title or comparison.case,
-        subtitle="A two-dimensional reduced-order model of the artery (2D) against three-dimensional "
-        f"fluid–structure simulation (3D), cell by cell: {counted(len(comparison.variants), 'variant')}, "
-        f"{listed(comparison.variants)}.",
+        subtitle=f"{_models(comparison)} against three-dimensional fluid–structure simulation (3D), cell by cell.",
         identity=identity(comparison),
         created=comparison.provenance.created,
         sections=tuple(section for declared in SECTIONS if (section := declared(comparison))),

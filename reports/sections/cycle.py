@@ -12,7 +12,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.grids import GridPanel, GridRow, grid_figure
-from reports.sections.parts.places import place_words
+from reports.sections.parts.places import place_words, probe_words
 from reports.sections.parts.stated import anywhere, left_out
 from reports.wording.numbers import listed
 from reports.wording.words import row_heading
@@ -66,7 +66,7 @@ def _figures(comparison: Comparison, number: int, variant: str) -> list[Figure]:
                     f"Curves of {what} over time in 3D and 2D, variant {variant}, at {where}.",
                 ),
                 ("time into the cycle (s)", time),
-                [place_words(comparison, i) for i in columns],
+                [probe_words(comparison, i) for i in columns],
                 rows,
             )
         )

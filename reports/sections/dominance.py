@@ -13,6 +13,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.models import headed
+from reports.sections.parts.places import place_words
 from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import ABSENT, SPACE, fixed, listed
 from reports.wording.words import place
@@ -93,27 +94,30 @@ def _largest_table(comparison: Comparison) -> Table | None:
     return Table("largest-dominance", caption, tuple(columns), tuple(rows))
 
 
+def _largest_inside(comparison: Comparison, quantity: str) -> tuple[float, str, int, int] | None:
+    """Largest ratio of 3D before the last cell with its variant and cell, counted from 1; None if unknown."""
+    name = f"reference_{quantity}"
+    if name not in comparison.fields:
+        return None
+    values = comparison.fields[name].values.astype(float)[:, :-1]
+    if not np.isfinite(values).any():
+        return None
+    at = np.unravel_index(int(np.nanargmax(values)), values.shape)
+    return float(values[at]), comparison.variants[int(at[0])], int(at[1]) + 1, int(at[2]) + 1
+
+
 def _dominance_sentence(comparison: Comparison) -> str:
-    rows = [
-        row
-        for variant in comparison.variants
-        for quantity in RATIOS
-        if (row := comparison.metrics.largest_row(variant, quantity, "reference"))
-    ]
     opening = (
         "The 2D model neglects the radial velocity v_r and the azimuthal velocity v_φ beside the axial v_x. "
     )
-    if not rows:
+    found = {quantity: of for quantity in RATIOS if (of := _largest_inside(comparison, quantity))}
+    if not found:
         return f"{opening}How small they are in 3D was not measured."
-    row = max(rows, key=lambda r: r.reference or 0.0)
-    verdict = (
-        "nowhere more than a tenth of"
-        if (row.reference or 0.0) <= _NEGLIGIBLE
-        else "not everywhere small beside"
-    )
+    quantity, (largest, variant, i, j) = max(found.items(), key=lambda item: item[1][0])
+    verdict = "nowhere more than a tenth of" if largest <= _NEGLIGIBLE else "not everywhere small beside"
     return (
-        f"{opening}In 3D they are {verdict} v_x: the largest ratio, {RATIOS[row.quantity]} = "
-        f"{ratio(row.reference)}, is in variant {row.variant} at {place(row)}."
+        f"{opening}In 3D they are {verdict} v_x: the largest ratio before the outlet, {RATIOS[quantity]} = "
+        f"{ratio(largest)}, is in variant {variant} at {place_words(comparison, i, j)}."
     )
 
 
@@ -126,8 +130,9 @@ def _implied_sentence(comparison: Comparison) -> str:
         return ""
     row = max(rows, key=lambda r: r.rom or 0.0)
     said = (
-        f"The v_r that follows from the 2D model's own v_x and mass balance is largest in variant "
-        f"{row.variant} at {place(row)}, {RATIOS[RADIAL]} = {ratio(row.rom)}"
+        f"The v_r that follows from the {headed(comparison, comparison.model)} model's own v_x and mass "
+        f"balance is largest in variant {row.variant} at {place_words(comparison, row.i or 1, row.j)}, "
+        f"{RATIOS[RADIAL]} = {ratio(row.rom)}"
     )
     if not _at_edge(comparison, row):
         return f"{said}."
@@ -189,7 +194,10 @@ def _csv(comparison: Comparison, lines: Sequence[tuple[str, Sequence[Floats]]]) 
 @declared("dominance", "Axial dominance")
 def section(comparison: Comparison) -> Blocks:
     """Return how small the neglected velocities are, and where."""
-    said = (_dominance_sentence(comparison), _implied_sentence(comparison))
+    said = (
+        _dominance_sentence(comparison),
+        *(_implied_sentence(comparison.of(model)) for model in comparison.models),
+    )
     drawn = f"reference_{RADIAL}" in comparison.fields and comparison.n_phi > 1
     return (Paragraph(" ".join(filter(None, said))), *((_figure(comparison),) if drawn else ()))
 

@@ -5,7 +5,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, Need, declared
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.grids import grid_figure
-from reports.sections.parts.places import place_words
+from reports.sections.parts.places import probe_words
 from reports.sections.velocity import profile_row, stated
 from reports.wording.words import instant, row_heading
 
@@ -26,7 +26,7 @@ def _figures(comparison: Comparison, number: int, variant: str) -> list[Figure]:
                 f"Velocity profiles of all models, variant {variant}, {when}.",
             ),
             ("r/R (–)", comparison.profiles["y"].values.astype(float)),
-            [place_words(comparison, i) for i in columns],
+            [probe_words(comparison, i) for i in columns],
             [profile_row(comparison, variant, k, j, place, columns) for k, j, place in lines],
         )
         for columns in chunks(comparison.i)

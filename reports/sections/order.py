@@ -2,6 +2,7 @@
 
 from reports.sections import (
     ablation,
+    agreed,
     answer,
     artery,
     assumptions,
@@ -26,13 +27,14 @@ SECTIONS: list[Declared] = [
     overview.section,
     moved.section,
     velocity.section,
+    agreed.section,
     maps.section,
     exponents.section,
     dominance.section,
+    assumptions.section,
     budget.section,
     ablation.section,
     artery.section,
-    assumptions.section,
     provenance.section,
     verdict.section,
     budget.tables,

@@ -7,11 +7,12 @@ import numpy as np
 from cases.arrays import Floats
 from cases.fields import FIELDS
 from reports.blocks import Block, Figure, Interactive, Paragraph
+from reports.figures.artery_sketch import Place, artery_sketch
 from reports.figures.overview import Cycle, OverviewRow, overview
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts.models import headed
-from reports.sections.parts.places import central_cell, in_calcification, place_words
+from reports.sections.parts.places import central_cell, in_calcification, place_words, shown_row
 from reports.sections.parts.stated import anywhere, left_out
 from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import SPACE, listed
@@ -113,7 +114,42 @@ def section(comparison: Comparison) -> Blocks:
         ),
         _csv(comparison, rows, variants),
     )
-    return (*blocks, figure)
+    return (*blocks, figure, _sketch(comparison))
+
+
+def _sketch(comparison: Comparison) -> Figure:
+    """Return the artery from the side with the shown places, numbered."""
+    j = shown_row(comparison)
+    fields = comparison.fields
+    phi = float(np.degrees(fields["phi"].values[j - 1]))
+    places = [
+        Place(number, 1e3 * float(fields["x"].values[i - 1]), phi)
+        for number, i in enumerate(comparison.i, start=1)
+    ]
+    said = listed(f"{n} at {place_words(comparison, i, j)}" for n, i in enumerate(comparison.i, start=1))
+    radius = next(
+        (
+            1e3 * float(np.nanmean(fields[name].values))
+            for name in ("reference_radius", "rom_radius")
+            if anywhere(fields[name].values)
+        ),
+        1.0,
+    )
+    return Figure(
+        "sketch",
+        f"The artery from the side, and the probes: {said}.",
+        f"Drawing of the artery with inlet, outlet, calcification and the probes {said}.",
+        partial(
+            artery_sketch,
+            1e3 * fields["x"].values,
+            np.degrees(fields["phi"].values),
+            radius,
+            [(name, fields["calcified"].sel(variant=name).values > 0) for name in comparison.variants],
+            places,
+            phi,
+        ),
+        comma_separated(("number", "x_mm", "phi_deg"), [(p.number, p.x, p.phi) for p in places]),
+    )
 
 
 def _csv(comparison: Comparison, rows: dict[str, OverviewRow], variants: list[str]) -> str:

@@ -13,7 +13,8 @@ from reports.sections.parts.cells import chunks
 from reports.sections.parts.grids import GridPanel, GridRow, grid_figure
 from reports.sections.parts.models import headed
 from reports.sections.parts.page_data import all_models
-from reports.sections.parts.places import central_cell, place_words
+from reports.sections.parts.places import place_words, probe_words, shown_row
+from reports.sections.parts.sections_figure import sections_figure
 from reports.sections.parts.stated import anywhere, stated_variants
 from reports.wording.numbers import SPACE, listed, signed, with_unit
 from reports.wording.words import instant, row_heading
@@ -38,12 +39,6 @@ def profile_row(
         for i in columns
     )
     return GridRow(_FIELD, "$v_x$", place, panels)
-
-
-def shown_row(comparison: Comparison) -> int:
-    """Row j of the shown ones that is nearest to the middle of the calcification."""
-    middle = central_cell(comparison)[1]
-    return min(comparison.j, key=lambda j: min(abs(j - middle), comparison.n_phi - abs(j - middle)))
 
 
 def _farthest(comparison: Comparison, variants: list[str], state: int) -> str:
@@ -79,7 +74,7 @@ def figures(comparison: Comparison, variants: list[str]) -> list[Figure]:
                 f"Farthest from 3D: {farthest}.",
             ),
             (f"{_RADIUS} (–)", comparison.profiles["y"].values.astype(float)),
-            [place_words(comparison, i) for i in columns],
+            [probe_words(comparison, i) for i in columns],
             [profile_row(comparison, name, 0, j, name, columns) for name in variants],
         )
         for columns in chunks(comparison.i)
@@ -111,5 +106,6 @@ def section(comparison: Comparison) -> Blocks:
         ),
         *told,
         *figures(comparison, variants),
+        *([sections_figure(comparison, variants)] if comparison.n_phi > 1 else []),
     ]
     return tuple(blocks)

@@ -14,6 +14,17 @@ def place_words(comparison: Comparison, i: int, j: int | None = None) -> str:
     return f"{along}, φ{SPACE}={SPACE}{fixed(np.degrees(float(comparison.fields['phi'].values[j - 1])), 0)}°"
 
 
+def probe_words(comparison: Comparison, i: int) -> str:
+    """Heading of a shown section: its number in the drawing of the artery, and where it is."""
+    return f"{comparison.i.index(i) + 1}: {place_words(comparison, i)}"
+
+
+def shown_row(comparison: Comparison) -> int:
+    """Row j of the shown ones that is nearest to the middle of the calcification."""
+    middle = central_cell(comparison)[1]
+    return min(comparison.j, key=lambda j: min(abs(j - middle), comparison.n_phi - abs(j - middle)))
+
+
 def central_cell(comparison: Comparison) -> tuple[int, int]:
     """Cell in the middle of what is calcified in most variants, or of the artery; counted from 1."""
     often = comparison.fields["calcified"].values.astype(int).sum(axis=0)
