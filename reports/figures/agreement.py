@@ -24,7 +24,7 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 0.70, 0.62, 0.46, 0.36
 _HEIGHT, _GAP = 0.56, 0.33  # inches
 _BOXES = (96, 56)
 _SCATTER = 1.96  # standard deviations: 19 of 20 of normal values
-_BIAS = "#b8480b"
+BIAS = "#b8480b"
 _SPREAD: Dashes = (0, (3.2, 1.4))
 _DECADES = 4  # of the scale of counts; a box with more has its darkest colour
 _SCALE = Scale(
@@ -88,8 +88,8 @@ def agreement(variants: Sequence[str], rows: Sequence[Agreement], model: str, re
             bottom -= 2 * (_HEIGHT + _GAP)
         keys = [
             sheet.Key("equal", QUIET, "-"),
-            sheet.Key("bias", _BIAS, "-"),
-            sheet.Key(f"bias ± {_SCATTER} standard deviations", _BIAS, _SPREAD),
+            sheet.Key("bias", BIAS, "-"),
+            sheet.Key(f"bias ± {_SCATTER} standard deviations", BIAS, _SPREAD),
         ]
         if any(row.limit is not None for row in rows):
             keys.append(sheet.Key("within the limit", fill=LIMIT))
@@ -153,16 +153,16 @@ def _differences(
     panels = _row(len(pairs), bottom, sheet.limits(means, 0.03), shown)
     if row.limit is not None:
         sheet.band(axis, panels, -row.limit, row.limit, LIMIT)
-    sheet.across_panels(axis, panels, [0.0], colors=QUIET, linewidths=0.6)
+    sheet.across_panels(axis, panels, [0.0], color=QUIET, linewidth=0.6)
     for panel, mean, difference in zip(panels, means, apart, strict=True):
         if not difference.size:
             continue
         _boxes(axis, panel, mean, difference)
         bias, spread = float(difference.mean()), _SCATTER * float(difference.std())
-        sheet.across_panels(axis, [panel], [bias], colors=_BIAS, linewidths=1.0, zorder=2.5)
+        sheet.across_panels(axis, [panel], [bias], color=BIAS, linewidth=1.0, zorder=2.5)
         for end in (bias - spread, bias + spread):
             if shown[0] <= end <= shown[1]:
-                style_of = {"colors": _BIAS, "linewidths": 0.8, "linestyles": [_SPREAD], "zorder": 2.5}
+                style_of = {"color": BIAS, "linewidth": 0.8, "linestyle": _SPREAD, "zorder": 2.5}
                 sheet.across_panels(axis, [panel], [end], **style_of)
         words = f"{bias:+.2f} ± {spread:.2f} %".replace("-", "\N{MINUS SIGN}")
         sheet.corner(axis, panel, words)

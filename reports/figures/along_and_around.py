@@ -102,7 +102,7 @@ def along_and_around(
                 sheet.headings(axis, panels, variants)
             _tint(axis, panels, row, edges)
             sheet.ordinates(axis, panels, row.label, 4)
-            sheet.across_panels(axis, panels, [0.0], colors=QUIET, linewidths=0.6)
+            sheet.across_panels(axis, panels, [0.0], color=QUIET, linewidth=0.6)
             at = [row.abscissa] * len(panels)
             sheet.model_curves(axis, panels, at, list(zip(*(p.models for p in row.panels), strict=True)))
             sheet.reference_points(axis, panels, at, [p.reference for p in row.panels])

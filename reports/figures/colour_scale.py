@@ -97,7 +97,7 @@ def bar(axis: Axes, place: tuple[float, float, float], scale: Scale, label: str)
     numbers = ticks(low, high, 3)
     marks = scale.marks or tuple(zip(numbers, numerals(numbers), strict=True))
     beside = Panel(left + BAR, bottom, 0.03, height, (0.0, 1.0), scale.ends)
-    across_panels(axis, [beside], [value for value, _ in marks], colors="#000000", linewidths=0.5)
+    across_panels(axis, [beside], [value for value, _ in marks], color="#000000", linewidth=0.5)
     for value, words in marks:
         axis.text(left + BAR + 0.05, float(panel.up(value)), words, va="center", fontsize=6.5)
     longest = max((len(words) for _, words in marks), default=0)

@@ -107,7 +107,7 @@ def overview(
             if row.limit is not None:
                 sheet.band(axis, lower, -row.limit, row.limit, LIMIT)
             sheet.ordinates(axis, lower, _error_label(row.limit), 2, grid=False)
-            sheet.across_panels(axis, lower, [0.0], colors=QUIET, linewidths=0.5)
+            sheet.across_panels(axis, lower, [0.0], color=QUIET, linewidth=0.5)
             sheet.model_curves(axis, lower, abscissa, _by_model(errors))
             sheet.frames(axis, [*upper, *lower])
             sheet.up_panels(axis, [*upper, *lower], [m for m in marks if x[0] <= m <= x[1]])

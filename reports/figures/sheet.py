@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
@@ -65,7 +65,6 @@ class Key:
     colour: str = QUIET
     dashes: Dashes | None = None
     fill: str = ""
-    hatch: str = ""
 
 
 def sheet(height: float) -> tuple[Figure, Axes]:
@@ -146,6 +145,12 @@ def reference_points(
     )
 
 
+def segments(axis: Axes, lines: Sequence[Sequence[tuple[float, float]]], **style: Any) -> None:
+    """Draw lines through points (inches), each at least two, as one artist."""
+    points = np.array([point for line in lines for point in (*line, (np.nan, np.nan))]).reshape(-1, 2)
+    axis.plot(*points.T, **{"solid_capstyle": "projecting", **style})
+
+
 def frames(axis: Axes, panels: Sequence[Panel], closed: bool = False) -> None:
     """Draw the left and lower edge of each panel, or all four."""
     corners = [
@@ -153,7 +158,7 @@ def frames(axis: Axes, panels: Sequence[Panel], closed: bool = False) -> None:
         + ([(p.left + p.width, p.top), (p.left, p.top)] if closed else [])
         for p in panels
     ]
-    axis.add_collection(LineCollection(corners, colors="#000000", linewidths=0.5, zorder=3), autolim=False)
+    segments(axis, corners, color="#000000", linewidth=0.5, zorder=3)
 
 
 def across_panels(axis: Axes, panels: Sequence[Panel], ordinates: Sequence[float], **style: Any) -> None:
@@ -161,18 +166,14 @@ def across_panels(axis: Axes, panels: Sequence[Panel], ordinates: Sequence[float
     lines = [
         [(p.left, float(p.up(y))), (p.left + p.width, float(p.up(y)))] for p in panels for y in ordinates
     ]
-    axis.add_collection(
-        LineCollection(lines, **{"colors": GRID, "linewidths": 0.4, "zorder": 0.5, **style}), autolim=False
-    )
+    plain = {"color": GRID, "linewidth": 0.4, "zorder": 0.5, "solid_capstyle": "butt"}
+    segments(axis, lines, **{**plain, **style})
 
 
 def up_panels(axis: Axes, panels: Sequence[Panel], abscissas: Sequence[float], **style: Any) -> None:
     """Draw vertical lines through every panel."""
     lines = [[(float(p.across(x)), p.bottom), (float(p.across(x)), p.top)] for p in panels for x in abscissas]
-    axis.add_collection(
-        LineCollection(lines, **{"colors": QUIET, "linewidths": 0.6, "linestyles": ":", **style}),
-        autolim=False,
-    )
+    segments(axis, lines, **{"color": QUIET, "linewidth": 0.6, "linestyle": ":", "zorder": 1, **style})
 
 
 def boxes(axis: Axes, corners: Sequence[tuple[float, float, float, float]], colour: str) -> None:
@@ -249,8 +250,8 @@ def abscissas(
             axis,
             [Panel(panel.left, panel.bottom - 0.03, panel.width, 0.03, panel.x, (0.0, 1.0))],
             shown,
-            colors="#000000",
-            linestyles="-",
+            color="#000000",
+            linestyle="-",
         )
     middle = (panels[0].left + panels[-1].left + panels[-1].width) / 2
     axis.text(middle, panels[0].bottom - 0.17, label, ha="center", va="top", fontsize=LABEL_SIZE)
@@ -285,21 +286,21 @@ def models_keys(reference: str, models: Sequence[str]) -> Iterator[Key]:
 
 
 def legend(axis: Axes, keys: Sequence[Key], left: float, up: float) -> None:
-    """Write a legend in one line from ``left`` on, at the height ``up`` (inches)."""
+    """Write a legend in one line from ``left`` on, at the height ``up`` (inches), smaller if it is long."""
+    wanted = sum(_KEY + 0.19 + _LETTER * len(key.words) for key in keys)
+    small = min(1.0, (WIDTH - left) / max(wanted, _KEY))
     for key in keys:
-        if key.fill or key.hatch:
-            box = Rectangle(
-                (left, up - 0.045), 0.18, 0.09, facecolor=key.fill or "none", edgecolor=key.colour
-            )
-            box.set(linewidth=0.5, hatch=key.hatch or None)
+        if key.fill:
+            box = Rectangle((left, up - 0.045), 0.18, 0.09, facecolor=key.fill, edgecolor=key.colour)
+            box.set(linewidth=0.5)
             axis.add_patch(box)
         elif key.dashes is None:
             axis.plot([left + _KEY / 2], [up], "o", color=key.colour, markersize=3.0, markeredgewidth=0)
         else:
             axis.plot([left, left + _KEY], [up, up], color=key.colour, linestyle=key.dashes, linewidth=1.3)
-        left += (0.18 if key.fill or key.hatch else _KEY) + 0.05
-        axis.text(left, up, key.words, ha="left", va="center", fontsize=7.0, parse_math=False)
-        left += _LETTER * len(key.words) + 0.14
+        left += (0.18 if key.fill else _KEY) + 0.05
+        axis.text(left, up, key.words, ha="left", va="center", fontsize=7.0 * small, parse_math=False)
+        left += small * (_LETTER * len(key.words) + 0.14)
 
 
 def ticks(low: float, high: float, most: int) -> list[float]:

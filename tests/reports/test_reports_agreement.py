@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from drawn_figure import drawn, filled, words
-from matplotlib.collections import LineCollection
+from drawn_figure import drawn, filled, line_data, words
 from matplotlib.figure import Figure
 
 from cases.arrays import Floats
@@ -35,13 +34,7 @@ def test_bias_and_scatter_are_those_of_the_differences(monkeypatch: pytest.Monke
     figure = _figure(monkeypatch, ROW)
     percent = 100 * (TWO / THREE - 1)
     assert f"+{percent.mean():.2f} ± {1.96 * percent.std():.2f} %" in words(figure)
-    lines = [
-        float(path.vertices[0, 1])
-        for artist in figure.axes[0].collections
-        if isinstance(artist, LineCollection) and artist.get_linewidths()[0] in (1.0, 0.8)
-        for path in artist.get_paths()
-    ]
-    bias, low, high = lines
+    bias, low, high = (line[0, 1] for line in line_data(figure, module.BIAS, points=3))
     band = next(box[:, 1] for box in filled(figure, LIMIT))
     inches = np.ptp(band) / 4.0  # from −2 % to +2 %
     assert bias == pytest.approx((band.min() + band.max()) / 2 + inches * percent.mean(), abs=1e-9)
