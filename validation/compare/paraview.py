@@ -1,17 +1,16 @@
 """The models' lumen wall over the cycle, with the cells' values, for ParaView: a VTKHDF file each."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import pyvista as pv
 import xarray as xr
 
 from cases.arrays import Floats, Integers
 from cases.fields import CELL, FIELDS
 from cases.quantities import tabulated
 from cases.results.comparison_file import CALCIFIED, REFERENCE, WALL_STIFFNESS, variable
-from febio_io.views.vtk_times import write_over_time
+from validation.compare.surfaces_file import write_surfaces
 
 DRAWN = 48  # rows with which an artery of one row is drawn round
 
@@ -30,7 +29,7 @@ def quadrilaterals(n_x: int, n_phi: int) -> Integers:
 
 
 def wall_points(x: Floats, phi: Floats, radius: Floats) -> Floats:
-    """Corners of the cells on the wall, ((n_x + 1) n_phi, 3): radii are means of the cells around.
+    """Corners of the cells on the wall, (n_t, (n_x + 1) n_phi, 3): radii are means of the cells around.
 
     Parameters
     ----------
@@ -38,40 +37,41 @@ def wall_points(x: Floats, phi: Floats, radius: Floats) -> Floats:
         Centres of the cells, m.
     phi : ndarray (n_phi,)
         rad.
-    radius : ndarray (n_x, n_phi)
+    radius : ndarray (n_t, n_x, n_phi)
         Of the cells, m.
     """
-    ends = np.concatenate([radius[:1], 0.5 * (radius[1:] + radius[:-1]), radius[-1:]])
-    corners = 0.5 * (ends + np.roll(ends, 1, axis=1))
-    along, around = np.meshgrid(edges(x), edges(phi)[:-1], indexing="ij")
-    return np.stack([along, corners * np.cos(around), corners * np.sin(around)], axis=-1).reshape(-1, 3)
+    ends = np.concatenate([radius[:, :1], 0.5 * (radius[:, 1:] + radius[:, :-1]), radius[:, -1:]], axis=1)
+    corners = 0.5 * (ends + np.roll(ends, 1, axis=2))
+    around = edges(phi)[:-1]
+    points = np.empty((*corners.shape, 3))
+    points[..., 0] = edges(x)[:, None]
+    points[..., 1] = corners * np.cos(around)
+    points[..., 2] = corners * np.sin(around)
+    return points.reshape(len(radius), -1, 3)
 
 
-def _wall_at(model: str, stiffness: str, both: xr.Dataset) -> Callable[[int], pv.PolyData]:
-    """Return what makes the surface of a state, with the values of its cells and a wall's stiffness."""
+def _write_wall(path: Path, model: str, stiffness: str, both: xr.Dataset) -> None:
+    """Write one model's wall with the values of its cells; ``stiffness`` is a wall's variable."""
     axes = both["x"].to_numpy(), both["phi"].to_numpy()
-    if axes[1].size == 1:
-        both = both.isel(phi=np.zeros(DRAWN, dtype=int))
-        axes = axes[0], 2 * np.pi * (np.arange(DRAWN) + 0.5) / DRAWN
     cells = [name for name in tabulated() if FIELDS[name].dims == CELL]
     fields = {name: both[variable(model, name)].to_numpy() for name in cells}
-    quads = quadrilaterals(*(axis.size for axis in axes))
-    faces = np.column_stack([np.full(len(quads), 4), quads]).ravel()
     still = {
         WALL_STIFFNESS: both[stiffness].to_numpy().astype(np.float32),
         CALCIFIED: both[CALCIFIED].to_numpy(),
     }
-
-    def wall(state: int) -> pv.PolyData:
-        points = wall_points(*axes, fields["radius"][state])
-        surface = pv.PolyData(points.astype(np.float32), faces=faces)
-        for name, values in fields.items():
-            surface.cell_data[name] = values[state].ravel().astype(np.float32)
-        for name, values in still.items():
-            surface.cell_data[name] = values.ravel()
-        return surface
-
-    return wall
+    if axes[1].size == 1:
+        axes = axes[0], 2 * np.pi * (np.arange(DRAWN) + 0.5) / DRAWN
+        fields = {name: np.repeat(values, DRAWN, axis=-1) for name, values in fields.items()}
+        still = {name: np.repeat(values, DRAWN, axis=-1) for name, values in still.items()}
+    times = both["time"].to_numpy()
+    values = {name: field.astype(np.float32).reshape(times.size, -1) for name, field in fields.items()}
+    write_surfaces(
+        path,
+        times,
+        quadrilaterals(*(axis.size for axis in axes)),
+        wall_points(*axes, fields["radius"]),
+        values | {name: constant.ravel() for name, constant in still.items()},
+    )
 
 
 def write_walls(directory: Path, variant: str, models: Sequence[str], both: xr.Dataset) -> None:
@@ -79,11 +79,9 @@ def write_walls(directory: Path, variant: str, models: Sequence[str], both: xr.D
 
     Raises
     ------
-    FebioFileError
+    ValidationError
         If a file cannot be written.
     """
-    times = both["time"].to_numpy().tolist()
     for model, of in (*zip(models, models, strict=True), (REFERENCE, models[0])):
         if not np.any(np.isnan(both[variable(model, "radius")])):
-            path = directory / f"{model}_{variant}.vtkhdf"
-            write_over_time(path, "vtkPolyData", times, _wall_at(model, variable(of, WALL_STIFFNESS), both))
+            _write_wall(directory / f"{model}_{variant}.vtkhdf", model, variable(of, WALL_STIFFNESS), both)
