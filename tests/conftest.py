@@ -1,4 +1,4 @@
-"""Hypothesis: reproducible examples in continuous integration, new ones at every other run."""
+"""What all tests share: reproducible examples in continuous integration, and which files go first."""
 
 import os
 
@@ -7,3 +7,38 @@ from hypothesis import settings
 settings.register_profile("ci", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None)
 settings.load_profile("ci" if os.environ.get("CI") else "explore")
+
+# Each process takes the next file when it has done one. The first two compile most kernels, and not the same.
+LONGEST_FIRST = (
+    "solver/test_two_modes.py",
+    "solver/test_batch.py",
+    "reports/test_reports_page.py",
+    "validation/test_sweep_kills.py",
+    "solver/test_godunov_case.py",
+    "solver/test_resume.py",
+    "validation/test_calibrate.py",
+    "validation/test_made_up_kind.py",
+    "validation/test_mapping.py",
+    "validation/test_ablation.py",
+    "solver/test_manufactured_orders.py",
+    "validation/test_command_result.py",
+    "reports/test_reports_claims.py",
+    "reports/test_reports_other_pages.py",
+    "reports/test_reports_rendering.py",
+    "febio_io/test_windkessel_start.py",
+    "validation/test_sweep_runs.py",
+    "validation/test_cache.py",
+    "validation/test_grid_references.py",
+    "validation/test_error_budget.py",
+    "validation/test_two_solvers.py",
+    "validation/test_benchmark_command.py",
+    "validation/test_bands.py",
+    "validation/test_false_reference.py",
+    "validation/test_febio_reference.py",
+    "validation/test_command_input.py",
+)
+RANKS = {name: rank for rank, name in enumerate(LONGEST_FIRST)}
+
+
+def pytest_collection_modifyitems(items):
+    items.sort(key=lambda item: RANKS.get("/".join(item.path.parts[-2:]), len(RANKS)))

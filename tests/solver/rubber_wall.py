@@ -1,8 +1,11 @@
-"""A wall law from outside the package: registers itself, then runs the module that the command line names."""
+"""A wall law from outside the package: registers itself, then runs the modules that its input names."""
 
+import io
+import json
 import runpy
 import sys
 from collections.abc import Sequence
+from contextlib import redirect_stderr, redirect_stdout
 from typing import Annotated, ClassVar, Literal
 
 from cases.arrays import Floats
@@ -32,6 +35,19 @@ class RubberWall(HomogeneousWall):
 
 LAWS["rubber"] = RubberWall
 
+
+def run_module(arguments):
+    """Status, output and errors of `python -m` with these arguments, the module's name first."""
+    sys.argv, status = arguments, 0
+    with redirect_stdout(io.StringIO()) as output, redirect_stderr(io.StringIO()) as errors:
+        try:
+            runpy.run_module(arguments[0], run_name="__main__", alter_sys=True)
+        except SystemExit as end:
+            status = end.code or 0
+    return status, output.getvalue(), errors.getvalue()
+
+
 if __name__ == "__main__":
-    del sys.argv[0]
-    runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
+    for line in sys.stdin:
+        sys.stdout.write(json.dumps(run_module(json.loads(line))) + "\n")
+        sys.stdout.flush()

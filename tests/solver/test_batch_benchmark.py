@@ -1,21 +1,37 @@
 """The script that measures batches runs; what it measures is not judged here."""
 
+import importlib.util
 import json
-import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 SCRIPT = Path(__file__).parents[2] / "benchmarks/batch.py"
+GRID = "n_x: 120, n_phi: 48"
 
 
-def test_batches_are_measured(tmp_path):
+@pytest.fixture
+def script(tmp_path, monkeypatch):
+    """The script as a module, with its case on few cells."""
+    spec = importlib.util.spec_from_file_location("batch_benchmark", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    text = module.CASE.read_text(encoding="utf-8")
+    assert GRID in text
+    coarse = tmp_path / "coarse.yaml"
+    coarse.write_text(text.replace(GRID, "n_x: 24, n_phi: 16"), encoding="utf-8")
+    monkeypatch.setattr(module, "CASE", coarse)
+    return module
+
+
+def test_batches_are_measured(script, tmp_path, monkeypatch, capsys):
     output = tmp_path / "batch.json"
-    command = [sys.executable, str(SCRIPT), "--cases", "1", "--output", str(output)]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603
-    assert result.returncode == 0, result.stderr
+    monkeypatch.setattr(sys, "argv", [str(SCRIPT), "--cases", "1", "--output", str(output)])
+    assert script.main() == 0
     rows = json.loads(output.read_text())["batches"]
     assert [row["kind"] for row in rows] == [
         *("anywhere", "anywhere", "symmetric", "symmetric", "rings", "rings", "anywhere")
     ]
     assert all((row["cases"], row["failed"]) == (1, 0) for row in rows)
-    assert "of the command" in result.stdout
+    assert "of the command" in capsys.readouterr().out

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -17,9 +18,35 @@ RUBBER = "law: rubber, youngs_modulus: 0.6 MPa, poisson_ratio: 0.48, share: 0.8"
 SHIPPED = "thin, thick, layered, saint_venant_kirchhoff, neo_hookean, table"
 
 
+class Done(NamedTuple):
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture(scope="module")
+def run_module():
+    """Run a module, as `python -m` does, in the one process where the law is registered."""
+    with subprocess.Popen(  # noqa: S603
+        [sys.executable, Path(__file__).with_name("rubber_wall.py")],
+        cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+
+        def run(*arguments):
+            process.stdin.write(json.dumps([str(each) for each in arguments]) + "\n")
+            process.stdin.flush()
+            return Done(*json.loads(process.stdout.readline()))
+
+        yield run
+
+
 @pytest.fixture
-def command(case_file):
-    """Run a module on the case with a wall, as `python -m` does where the law is registered."""
+def command(case_file, run_module):
+    """Run a module on the case with a wall."""
 
     def run(module, wall, *options):
         changed(case_file, THIN, f"{{{wall}}}")
@@ -28,17 +55,6 @@ def command(case_file):
         return done
 
     return run
-
-
-def run_module(module, *arguments):
-    return subprocess.run(  # noqa: S603
-        [sys.executable, Path(__file__).with_name("rubber_wall.py"), module, *arguments],
-        cwd=ROOT,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
 
 
 def test_a_new_law_runs_and_is_the_base_of_a_membrane(command, tmp_path):
@@ -104,7 +120,7 @@ def test_godunov_takes_a_new_linear_law(command, case_file):
     assert "godunov with thin, thick, layered, rubber" in done.stderr
 
 
-def test_the_schema_knows_a_new_law():
+def test_the_schema_knows_a_new_law(run_module):
     definitions = json.loads(run_module("cases", "--schema").stdout)["$defs"]
     assert "share" in definitions["RubberWall"]["properties"]
     assert "rubber" in definitions["MembraneOnLaws"]["properties"]["base"]["enum"]
