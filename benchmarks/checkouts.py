@@ -4,7 +4,8 @@
 
 OLDER is a folder with another checkout and an environment of its own in `.venv` (the README's first command
 makes it), as this one has. Both run each case in turn, A B A B, each with a cache of its own; rows of
-metrics.json are compared one by one. Exit status 1 if a figure differs by more than the tolerance.
+metrics.json are compared one by one, those of the first model where a case has several. Exit status 1 if a
+figure differs by more than the tolerance.
 """
 
 import argparse
@@ -21,7 +22,7 @@ from pathlib import Path
 HERE = Path(__file__).parents[1]
 CASES = ("calcification", "coupled", "thesis")
 TOLERANCE = 1e-12
-KEY = ("variant", "quantity", "statistic", "i", "j", "t_s", "band")
+KEY = ("variant", "quantity", "statistic", "inflow", "i", "j", "t_s", "band")
 VALUES = ("rom", "reference", "error")
 
 
@@ -46,9 +47,10 @@ def run(checkout: Path, case: str, work: Path, options: list[str]) -> tuple[floa
 
 
 def rows(path: Path) -> dict[tuple[object, ...], dict[str, object]]:
-    """Rows of a metrics.json by what they are about."""
+    """Rows of a metrics.json's first model by what they are about; older ones name no model."""
     found = json.loads(path.read_text(encoding="utf-8"))
-    return {tuple(row.get(name) for name in KEY): row for row in found}
+    first = found[0].get("model") if found else None
+    return {tuple(row.get(name, "") for name in KEY): row for row in found if row.get("model") == first}
 
 
 def differences(new: Path, old: Path, tolerance: float) -> list[str]:

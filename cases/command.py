@@ -56,14 +56,15 @@ def _run(options: argparse.Namespace) -> int:
 
 def print_summary(file: CaseFile) -> None:
     """Print one line for each variant and model of a file, and on stderr what is seldom meant."""
+    from cases.reading.models import labelled
     from cases.sections.doubts import doubts_of
 
     for model, variants in file.models.items():
         for variant, case in variants.items():
-            name = variant if len(file.models) == 1 else f"{variant}, model {model}"
-            print(f"{file.path}: {name}: {summary(case)}")
-            for doubt in doubts_of(case):
-                print(f"warning: {file.path}: {name}: {doubt}", file=sys.stderr)
+            print(f"{file.path}: {labelled(variant, model, file.models)}: {summary(case)}")
+    for variant, case in file.variants.items():  # boundary values are those of all models
+        for doubt in doubts_of(case):
+            print(f"warning: {file.path}: {variant}: {doubt}", file=sys.stderr)
 
 
 def summary(case: Case) -> str:

@@ -1,4 +1,4 @@
-"""``python -m solver CASE.yaml [--variant NAME] --output FILE.nc``: run the reduced model alone."""
+"""``python -m solver CASE.yaml [--variant NAME] --output FILE.nc``: run one reduced model of a case alone."""
 
 from __future__ import annotations
 
@@ -59,6 +59,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     with interrupts_deferred():
         from cases.reading.case_file import load_case_file
+        from cases.reading.models import labelled
         from cases.sections.doubts import doubts_of
         from cases.shell.terminal import progress_bar
         from solver.case.locality import locality_warning
@@ -68,11 +69,12 @@ def _run(options: argparse.Namespace) -> int:
 
     check_folder(options.output)
     file = load_case_file(options.case)
-    variant = chosen_variant(file, options.variant)
-    stated = {"case": file.name, "title": file.title, "variant": variant, "case_yaml": file.text}
-    case = file.model(options.model)[variant]
+    variant, model = chosen_variant(file, options.variant), options.model or next(iter(file.models))
+    case = file.model(model)[variant]
+    stated = {"case": file.name, "title": file.title, "variant": variant, "model": model}
+    stated |= {"case_yaml": file.text}
     results = () if case.reference is None else case.reference.files
-    chosen = variant if options.model is None else f"{variant}, model {options.model}"
+    chosen = labelled(variant, model, file.models)
     identity = run_identity(file.text, chosen, [path for path in case.input_files if path not in results])
     with progress_bar(f"{file.name} {chosen}") as progress:
         done = run_to_file(case, options.output, identity, stated, options.resume, progress)

@@ -1,7 +1,6 @@
 """Loading a case file: YAML → base and variants → checked cases in SI units."""
 
-import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -10,17 +9,17 @@ from pydantic import ValidationError
 
 from cases.errors import CaseError, CaseFileError, Problem
 from cases.reading.file_kinds import require_kind
+from cases.reading.models import ModelVariant, cells_apart, models_of
 from cases.reading.problems import problems_of
 from cases.reading.uncertain_numbers import uncertainty_problems
-from cases.reading.variants import merge_variant
+from cases.reading.variants import merge_variant, overrides_of
 from cases.reading.yaml_nodes import Node, parse_yaml, read_text
 from cases.sections.base import Section
 from cases.sections.case import Case
-from cases.values.kinds import NAME_CHARACTERS, NAME_PATTERN, Context, Name, Words
-from cases.values.wording import choices, shown, unknown_key
+from cases.values.kinds import Context, Name, Words
+from cases.values.wording import choices, unknown_key
 
-ONLY_VARIANT, ONLY_MODEL = "base", "rom"
-REFERENCE = "reference"  # the other model of every comparison
+ONLY_VARIANT = "base"
 S = TypeVar("S", bound=Section)
 
 
@@ -76,7 +75,6 @@ class _Heading(Section):
 
 
 CASE_KEYS = tuple(key for key in Case.model_fields if key != "title")
-OF_A_MODEL = ("wall", "solver", "uncertainty")  # keys that models may state otherwise
 FILE_KEYS = ("name", "title", *CASE_KEYS, "models", "variants")
 
 
@@ -109,16 +107,19 @@ def load_case_file(path: str | Path, results_exist: bool = True) -> CaseFile:
     require_kind(root, path, "case")
     problems = unknown_keys(root, FILE_KEYS)
     heading = check_section(_Heading, part_of(root, ("name", "title")), None, problems)
-    variants, models = overrides_of(root, problems), models_of(root, problems)
+    variants, models = variants_of(root, problems), models_of(root, problems)
     context = Context(path.resolve().parent, tuple(variants), results_exist)
-    cases = {
-        model: _cases(root, merged(root, variants, override), context, problems)
+    stated = {
+        (model, variant): node
         for model, override in models.items()
+        for variant, node in merged(root, variants, override).items()
     }
-    problems += _tables_apart(next(iter(cases.values()), {}), variants)
+    cases = _cases(root, stated, context, problems)
+    problems += [*_tables_apart(cases, variants), *cells_apart(cases, stated)]
     if problems or heading is None:
         raise CaseFileError.of_problems(path, problems)
-    return CaseFile(path, text, heading.name, heading.title or heading.name, cases)
+    by_model = {model: {variant: cases[model, variant] for variant in variants} for model in models}
+    return CaseFile(path, text, heading.name, heading.title or heading.name, by_model)
 
 
 def merged(root: Node, variants: dict[str, Node], model: Node) -> dict[str, Node]:
@@ -127,47 +128,56 @@ def merged(root: Node, variants: dict[str, Node], model: Node) -> dict[str, Node
     return {name: merge_variant(merge_variant(base, stated), model) for name, stated in variants.items()}
 
 
-def _cases(root: Node, stated: dict[str, Node], context: Context, problems: list[Problem]) -> dict[str, Case]:
-    """Return the checked cases of one model by variant; add what is wrong to the problems."""
+def _cases(
+    root: Node, stated: dict[ModelVariant, Node], context: Context, problems: list[Problem]
+) -> dict[ModelVariant, Case]:
+    """Return the checked cases by model and variant; add what is wrong to the problems."""
     cases = {}
-    found: dict[Problem, list[str]] = {}
-    for name, node in stated.items():
-        title = Node(name, root.line, "title") if "variants" in root.section else _title(root)
+    found: dict[Problem, list[ModelVariant]] = {}
+    for place, node in stated.items():
+        title = Node(place[1], root.line, "title") if "variants" in root.section else _title(root)
         wrong: list[Problem] = []
         case = check_section(
             Case, Node({"title": title, **node.section}, root.line, root.key), context, wrong
         )
         if case is not None:
-            cases[name] = case
+            cases[place] = case
         for problem in wrong:
-            found.setdefault(problem, []).append(name)
-    problems += [_of_variants(problem, names, len(stated)) for problem, names in found.items()]
+            found.setdefault(problem, []).append(place)
+    problems += [_of_some(problem, places, stated) for problem, places in found.items()]
     problems += uncertainty_problems(cases, stated)
     return cases
 
 
-def _tables_apart(cases: dict[str, Case], overrides: dict[str, Node]) -> list[Problem]:
+def _tables_apart(cases: dict[ModelVariant, Case], overrides: dict[str, Node]) -> list[Problem]:
     """Refuse overrides of the cells and times that one report tabulates for all variants."""
     problems = []
-    for name, case in cases.items():
+    for (model, name), case in cases.items():
         compare = overrides[name].section.get("compare")
         for key in ("cells", "times"):
             stated = None if compare is None else compare.section.get(key)
             if stated is None:
                 continue
             here = getattr(case.compare, key)
-            apart = [other for other, each in cases.items() if getattr(each.compare, key) != here]
+            apart = [
+                other
+                for (of, other), each in cases.items()
+                if of == model and getattr(each.compare, key) != here
+            ]
             if apart:
                 message = f"other {key} than variant {apart[0]}; allowed: the same {key} in all variants"
                 problems.append(Problem(stated.line, stated.key, message))
     return problems
 
 
-def _of_variants(problem: Problem, names: list[str], count: int) -> Problem:
-    """Name the variants in a problem that stands in the base but not in all variants."""
-    if problem.key.startswith("variants.") or len(names) == count:
-        return problem
-    return replace(problem, message=f"{problem.message} (variant {choices(names)})")
+def _of_some(problem: Problem, places: list[ModelVariant], all_places: Iterable[ModelVariant]) -> Problem:
+    """Name the variants and models in a problem that does not stand in one and is not of all of them."""
+    words = []
+    for number, word in ((1, "variant"), (0, "model")):
+        names, all_names = (dict.fromkeys(each[number] for each in part) for part in (places, all_places))
+        if len(names) < len(all_names) and not problem.key.startswith(f"{word}s."):
+            words.append(f"{word} {choices(names)}")
+    return replace(problem, message=f"{problem.message} ({', '.join(words)})") if words else problem
 
 
 def _title(root: Node) -> Node:
@@ -199,44 +209,6 @@ def unknown_keys(root: Node, known: Collection[str]) -> list[Problem]:
     ]
 
 
-def overrides_of(root: Node, problems: list[Problem]) -> dict[str, Node]:
+def variants_of(root: Node, problems: list[Problem]) -> dict[str, Node]:
     """Return the overrides by variant; one that changes nothing where the file states no variants."""
-    return _overrides(root, "variants", ONLY_VARIANT, tuple(Case.model_fields), problems)
-
-
-def models_of(root: Node, problems: list[Problem]) -> dict[str, Node]:
-    """Return the overrides by reduced model; one that changes nothing where the file states no models."""
-    models = _overrides(root, "models", ONLY_MODEL, OF_A_MODEL, problems)
-    if REFERENCE in models:
-        message = f"model name {shown(REFERENCE)}, which is the 3D reference; allowed: another name"
-        problems.append(Problem(models[REFERENCE].line, "models", message))
-    for override in models.values():
-        for key, node in override.section.items():
-            if key not in OF_A_MODEL:
-                problems.append(Problem(node.line, node.key, unknown_key(key, OF_A_MODEL)))
-    return models
-
-
-def _overrides(
-    root: Node, part: str, only: str, keys: tuple[str, ...], problems: list[Problem]
-) -> dict[str, Node]:
-    """Return the named overrides in a part of the file; one that changes nothing where it is not stated."""
-    if part not in root.section:
-        return {only: Node({}, root.line, root.key)}
-    stated = root.section[part]
-    word = part.removesuffix("s")
-    if not isinstance(stated.value, dict) or not stated.value:
-        message = f"{shown(stated.plain())}; allowed: a section for each {word}, under its name"
-        problems.append(Problem(stated.line, stated.key, message))
-        return {}
-    overrides = {}
-    for name, node in stated.value.items():
-        overrides[name] = Node({}, node.line, node.key) if node.value is None else node
-        if re.fullmatch(NAME_PATTERN, name) is None:
-            message = f"{word} name {shown(name)}; allowed: {NAME_CHARACTERS}"
-            problems.append(Problem(node.line, stated.key, message))
-        if not isinstance(overrides[name].value, dict):
-            message = f"{shown(node.plain())}; allowed: a section with the keys {choices(keys)}"
-            problems.append(Problem(node.line, node.key, message))
-            del overrides[name]
-    return overrides
+    return overrides_of(root, "variants", ONLY_VARIANT, tuple(Case.model_fields), problems)

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from cases.reading.case_file import OF_A_MODEL
+from cases.reading.models import OF_A_MODEL
 from cases.sections.case import Case
 from cases.values.kinds import NAME_PATTERN
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cases.errors import CaseFileError, Problem
-from cases.reading.case_file import check_section, merged, models_of, overrides_of
+from cases.reading.case_file import check_section, merged, variants_of
+from cases.reading.models import models_of
 from cases.reading.variants import merge_variant
 from cases.reading.yaml_nodes import Node, Scalar, parse_yaml, read_text
 from cases.sections.case import Case
@@ -57,8 +58,7 @@ def load_template(
         The file cannot be read.
     """
     root = parse_yaml(read_text(path), path)
-    variants = overrides_of(root, [])
-    models = models_of(root, [])
+    variants, models = variants_of(root, []), models_of(root, [])
     stated = merged(root, variants, models[model or next(iter(models))])[variant]
     if overrides is not None:
         stated = merge_variant(stated, overrides)

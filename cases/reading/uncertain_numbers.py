@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cases.errors import Problem, QuantityError, RefusedValueError
+from cases.reading.models import ModelVariant
 from cases.reading.numeric_keys import NumericKey, numeric_keys
 from cases.reading.yaml_nodes import Node, join
 from cases.sections.case import Case
@@ -107,20 +108,22 @@ def _spread(stated: object, key: NumericKey, place: tuple[str | int, ...]) -> fl
     return found
 
 
-def uncertainty_problems(cases: Mapping[str, Case], nodes: Mapping[str, Node]) -> list[Problem]:
-    """Problems of uncertain inputs: units that do not fit, and keys that no variant has.
+def uncertainty_problems(
+    cases: Mapping[ModelVariant, Case], nodes: Mapping[ModelVariant, Node]
+) -> list[Problem]:
+    """Problems of uncertain inputs: units that do not fit, and keys that no variant of any model has.
 
     Parameters
     ----------
-    cases : mapping of str to Case
-        Checked, by variant.
-    nodes : mapping of str to Node
-        The whole of each variant, merged.
+    cases : mapping of (str, str) to Case
+        Checked, by model and variant.
+    nodes : mapping of (str, str) to Node
+        The whole of each, merged.
     """
     problems: list[Problem] = []
     offered = {name: None for case in cases.values() for name in offered_keys(case)}
-    for variant, case in cases.items():
-        root = nodes[variant]
+    for place, case in cases.items():
+        root = nodes[place]
         try:
             _, lacking = uncertain_numbers(case)
         except RefusedValueError as error:

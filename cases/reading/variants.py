@@ -1,12 +1,16 @@
-"""Variants: named overrides of one base, merged key by key."""
+"""Named overrides of one base, of variants and of models, merged key by key."""
 
+import re
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from cases.errors import Problem
 from cases.reading.yaml_nodes import Node
 from cases.sections.base import keys_by_tag
 from cases.sections.solver import Solver
 from cases.sections.wall import Wall
+from cases.values.kinds import NAME_CHARACTERS, NAME_PATTERN
+from cases.values.wording import choices, shown
 
 # what a section is; stating another one replaces the section, since the old keys do not fit the new kind
 DISCRIMINATORS = MappingProxyType(
@@ -24,6 +28,50 @@ DISCRIMINATORS = MappingProxyType(
 KEYS_OF_KINDS = MappingProxyType({"wall": keys_by_tag(Wall), "solver": keys_by_tag(Solver)})
 Keys = Mapping[str, list[str]]
 NO_DISCRIMINATORS: Mapping[str, str] = MappingProxyType({})
+
+
+def overrides_of(
+    root: Node, part: str, only: str, keys: tuple[str, ...], problems: list[Problem]
+) -> dict[str, Node]:
+    """Return the named overrides in a part of a case file.
+
+    Parameters
+    ----------
+    root : Node
+        The file.
+    part : str
+        ``variants`` or ``models``.
+    only : str
+        Name of the one that changes nothing where the file has no such part.
+    keys : tuple of str
+        What each may state, for messages.
+    problems : list of Problem
+        Gains what is wrong with the names, and what is no section.
+
+    Returns
+    -------
+    dict of str to Node
+        Sections by name, in the file's order; an empty one where nothing is stated.
+    """
+    if part not in root.section:
+        return {only: Node({}, root.line, root.key)}
+    stated = root.section[part]
+    word = part.removesuffix("s")
+    if not stated.section:
+        message = f"{shown(stated.plain())}; allowed: a section for each {word}, under its name"
+        problems.append(Problem(stated.line, stated.key, message))
+        return {}
+    overrides = {}
+    for name, node in stated.section.items():
+        if re.fullmatch(NAME_PATTERN, name) is None:
+            message = f"{word} name {shown(name)}; allowed: {NAME_CHARACTERS}"
+            problems.append(Problem(node.line, stated.key, message))
+        if node.value is None or isinstance(node.value, dict):
+            overrides[name] = Node(node.section, node.line, node.key)
+        else:
+            message = f"{shown(node.plain())}; allowed: a section with the keys {choices(keys)}"
+            problems.append(Problem(node.line, node.key, message))
+    return overrides
 
 
 def merge_variant(base: Node, override: Node) -> Node:

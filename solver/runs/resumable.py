@@ -56,7 +56,7 @@ def run_identity(text: str, variant: str, inputs: Iterable[Path]) -> str:
     text : str
         The case file.
     variant : str
-        Name of the variant.
+        Name of the variant, with its model where the file has several.
     inputs : iterable of Path
         Files that the model is read from besides.
 
@@ -137,7 +137,9 @@ def _prepare(folder: Path, identity: str, resume: bool) -> Path:
         if not mark.is_file():
             raise SolverError(f"{folder}: no interrupted run to resume; run without --resume")
         if mark.read_text(encoding="ascii") != identity:
-            raise SolverError(f"{folder}: belongs to another case, variant or version; run without --resume")
+            raise SolverError(
+                f"{folder}: belongs to another case, variant, model or version; run without --resume"
+            )
         return folder
     with writing(folder, SolverError):
         shutil.rmtree(folder, ignore_errors=True)

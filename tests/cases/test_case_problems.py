@@ -8,7 +8,7 @@ from ruamel.yaml import YAML
 CASE_KEYS = (
     "title, geometry, blood, wall, calcification, inlet, outlet, solver, reference, compare, uncertainty"
 )
-FILE_KEYS = f"name, {CASE_KEYS}, variants"
+FILE_KEYS = f"name, {CASE_KEYS}, models, variants"
 PROBLEMS = YAML(typ="safe").load(Path(__file__).with_name("problems.yaml"))
 CASES = [(each["old"], each["new"], each["problem"]) for each in PROBLEMS]
 

@@ -37,7 +37,7 @@ def test_wrong_arguments_end_with_status_2(arguments, capsys):
 def test_the_schema_is_json_and_knows_every_key(capsys):
     assert main(["--schema"]) == 0
     schema = json.loads(capsys.readouterr().out)
-    assert set(schema["properties"]) == {"name", "variants", *Case.model_fields}
+    assert set(schema["properties"]) == {"name", "models", "variants", *Case.model_fields}
     assert schema["additionalProperties"] is False
 
 

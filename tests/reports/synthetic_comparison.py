@@ -24,6 +24,14 @@ UNITS = {
     "sector_flow_rate": "m3 s-1",
 }
 EXPONENTS = np.geomspace(0.5, 50.0, 121)
+RUN = {
+    "scheme": "semi_implicit",
+    "time_step_s": 0.001,
+    "steps": 2391,
+    "cycles": 3,
+    "wall_law": "thick",
+    "cycle_change": 8.8e-11,
+}
 CASE_YAML = "name: synthetic\ngeometry: {length: 15 mm, radius: 2.5 mm}\nwall: {youngs_modulus: 0.6 MPa}\n"
 
 
@@ -154,7 +162,7 @@ def fields(setup: Setup) -> dict[str, np.ndarray]:
                 ):
                     out.setdefault(f"reference_{key}", []).append(values)
         wall = patch.get(name, patch["local"])[0]
-        out.setdefault("wall_stiffness", []).append(130.0 * (1 + 15 * wall))
+        out.setdefault("rom_wall_stiffness", []).append(130.0 * (1 + 15 * wall))
         out.setdefault("calcified", []).append((wall > 0.5).astype(np.int8))
     return {key: np.stack(value) for key, value in out.items()} | {"time": time, "x": x, "phi": phi, "y": y}
 
@@ -163,7 +171,7 @@ def dataset(setup: Setup, arrays: dict[str, np.ndarray]) -> xr.Dataset:
     """The arrays as comparison.nc holds them."""
     rays = ("variant", "time", "x", "phi", "y")
     walls = (
-        "wall_stiffness",
+        "rom_wall_stiffness",
         "calcified",
         *(f"reference_axial_dominance_{a}" for a in ("radial", "azimuthal")),
     )
@@ -189,6 +197,7 @@ def dataset(setup: Setup, arrays: dict[str, np.ndarray]) -> xr.Dataset:
         attrs={
             "case": "synthetic",
             "title": setup.title,
+            "models": json.dumps(["rom"]),
             "baseline": setup.baseline,
             "period_s": PERIOD,
             "compare_i": np.array(setup.i),
@@ -247,6 +256,7 @@ def _row(variant: str, quantity: str, statistic: str, unit: str, **rest: Any) ->
     return {
         "case": "synthetic",
         "variant": variant,
+        "model": "rom",
         "quantity": quantity,
         "statistic": statistic,
         "inflow": "",
@@ -471,16 +481,7 @@ def provenance(setup: Setup) -> dict[str, Any]:
         "warnings": list(setup.warnings),
         "variants": {
             name: {
-                "rom": {
-                    "scheme": "semi_implicit",
-                    "n_x": setup.n_x,
-                    "n_phi": setup.n_phi,
-                    "time_step_s": 0.001,
-                    "steps": 2391,
-                    "cycles": 3,
-                    "wall_law": "thick",
-                    "cycle_change": 8.8e-11,
-                },
+                "models": {"rom": RUN | {"n_x": setup.n_x, "n_phi": setup.n_phi}},
                 "reference": {
                     "file": f"reference_data/febio/{name}.xplt",
                     "software": "FEBio",
@@ -500,13 +501,35 @@ def provenance(setup: Setup) -> dict[str, Any]:
     }
 
 
-def write(directory: Path, setup: Setup | None = None) -> list[dict[str, Any]]:
+def of_models(
+    content: tuple[xr.Dataset, list[dict[str, Any]], dict[str, Any]], models: tuple[str, ...]
+) -> tuple[xr.Dataset, list[dict[str, Any]], dict[str, Any]]:
+    """The same with several models, each after the first a percent off what the one before gave."""
+    both, rows, record = content
+    own = [str(name) for name in both.data_vars if str(name).startswith("rom_")]
+    parts, found = [both.drop_vars(own)], []
+    for k, model in enumerate(models):
+        share = 1.01**k
+        parts.append(share * both[own].rename({name: f"{model}_{name[4:]}" for name in own}))
+        found += [{**row, "model": model, "rom": row["rom"] and share * row["rom"]} for row in rows]
+    told = {
+        name: {**each, "models": dict.fromkeys(models, each["models"]["rom"])}
+        for name, each in record["variants"].items()
+    }
+    merged = xr.merge(parts).assign_attrs(both.attrs | {"models": json.dumps(models)})
+    return merged, found, record | {"variants": told}
+
+
+def write(
+    directory: Path, setup: Setup | None = None, models: tuple[str, ...] = ("rom",)
+) -> list[dict[str, Any]]:
     """Write a finished comparison and return its metrics."""
     setup = setup or Setup()
     arrays = fields(setup)
-    rows = metrics(setup, arrays)
+    content = dataset(setup, arrays), metrics(setup, arrays), provenance(setup)
+    both, rows, record = content if models == ("rom",) else of_models(content, models)
     directory.mkdir(parents=True, exist_ok=True)
-    dataset(setup, arrays).to_netcdf(directory / "comparison.nc", engine="netcdf4")
+    both.to_netcdf(directory / "comparison.nc", engine="netcdf4")
     (directory / "metrics.json").write_text(json.dumps(rows), encoding="utf-8")
-    (directory / "provenance.json").write_text(json.dumps(provenance(setup)), encoding="utf-8")
+    (directory / "provenance.json").write_text(json.dumps(record), encoding="utf-8")
     return rows

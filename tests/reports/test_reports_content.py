@@ -160,7 +160,7 @@ def test_an_older_result_without_the_newer_keys_is_shown(tmp_path: Path, small: 
     record = json.loads(path.read_text())
     del record["warnings"]
     del record["variants"]["local"]["reference"]["coverage"]
-    del record["variants"]["local"]["rom"]["cycle_change"]
+    del record["variants"]["local"]["models"]["rom"]["cycle_change"]
     for band in record["bands"]:
         band["variants"] = None
     path.write_text(json.dumps(record))
@@ -369,7 +369,8 @@ def test_settings_are_named_in_words_with_their_unit(tmp_path: Path, small: synt
 
 def _extra(variant: str, **what: Any) -> dict[str, Any]:
     blank = dict.fromkeys(("i", "j", "t_s", "rom", "reference", "error", "band"))
-    return {"case": "synthetic", "variant": variant, "unit": "1", "status": "", "inflow": "", **blank, **what}
+    about = {"case": "synthetic", "variant": variant, "model": "rom", "inflow": ""}
+    return {**about, "unit": "1", "status": "", **blank, **what}
 
 
 def test_rows_that_the_report_does_not_know_are_shown(tmp_path: Path, small: synthetic.Setup) -> None:

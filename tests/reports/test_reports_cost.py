@@ -38,7 +38,7 @@ def comparison(tmp_path):
         path = tmp_path / "provenance.json"
         content = json.loads(path.read_text(encoding="utf-8"))
         content["variants"]["none"]["reference"] |= facts
-        content["variants"]["none"]["rom"] |= rom or {}
+        content["variants"]["none"]["models"]["rom"] |= rom or {}
         path.write_text(json.dumps(content), encoding="utf-8")
         return load(tmp_path)
 
@@ -96,7 +96,7 @@ def test_data_records(comparison):
 def test_the_cost_of_2d_is_told_once(comparison):
     assert (
         "simulation_wall_time_s"
-        not in comparison({"simulation_wall_time_s": 0.5}).provenance.variants["none"].rom.facts()
+        not in comparison({"simulation_wall_time_s": 0.5}).provenance.variants["none"].models["rom"].facts()
     )
 
 

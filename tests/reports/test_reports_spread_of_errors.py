@@ -11,7 +11,7 @@ from reports.sections.parts import pooled
 
 def row(statistic, error, rom=None, reference=None, variant="local"):
     values = {"rom": rom, "reference": reference, "error": error}
-    return metric_row("case", variant, "radius", statistic, unit="m", **values)
+    return metric_row("case", variant, "rom", "radius", statistic, unit="m", **values)
 
 
 def comparison(*rows):

@@ -156,7 +156,7 @@ def refused(run, case_file, output, variant="patch"):
     status, errors = run(case_file, "--variant", variant, "--output", output, "--resume")
     assert status == 2
     assert errors == (
-        f"{pieces_folder(output)}: belongs to another case, variant or version; run without --resume\n"
+        f"{pieces_folder(output)}: belongs to another case, variant, model or version; run without --resume\n"
     )
     assert {path.name: path.read_bytes() for path in pieces_folder(output).iterdir()} == before
 

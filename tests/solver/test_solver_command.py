@@ -136,6 +136,7 @@ def test_a_run_that_drifts_says_so(run, case_file):
 def test_where_it_comes_from(result, case_file):
     assert result.attrs["case_yaml"] == case_file.read_text()
     expected = {"case": "short", "title": "A short artery", "variant": "patch", "scheme": "semi_implicit"}
+    expected["model"] = "rom"
     assert {key: result.attrs[key] for key in expected} == expected
     assert result.attrs["steps"] == 200
     assert result.attrs["time_step_s"] == pytest.approx(2e-3)

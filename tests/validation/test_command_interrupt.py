@@ -24,7 +24,7 @@ class TestInterrupt:
         ("module", "name"),
         [
             (cached_runs, "run_reduced_model"),
-            (comparing, "both_models"),
+            (comparing, "all_models"),
             (comparing, "comparison_file"),
             (comparing, "write_walls"),
             (comparing, "write_reports"),

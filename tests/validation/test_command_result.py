@@ -54,9 +54,11 @@ class TestResult:
                     assert np.all(np.isfinite(field))
             assert data["rom_axial_velocity"].dims[-1] == "y"
             assert data["rom_axial_velocity"].dtype == np.float32
-            fields = data.drop_vars("error_budget")  # NaN there: not known
+            fields = data.drop_vars("rom_error_budget")  # NaN there: not known
             assert all(np.all(np.isfinite(fields[name])) for name in fields.data_vars)
-            assert np.all(np.isfinite(data["error_budget"].sel(quantity="pressure", part=["error", "grid"])))
+            assert np.all(
+                np.isfinite(data["rom_error_budget"].sel(quantity="pressure", part=["error", "grid"]))
+            )
             assert {data[axis].attrs["units"] for axis in ("time", "x", "phi", "y")} == {"s", "m", "rad", "1"}
 
     def test_comparison_says_where_it_comes_from(self, finished):
@@ -152,7 +154,7 @@ class TestResult:
             assert item["bytes"] == Path(item["path"]).stat().st_size
             assert item["sha256"] == output_checksum(Path(item["path"]))
         assert about["variants"]["none"]["reference"]["nodes"] == 8215
-        assert about["variants"]["local"]["rom"]["n_x"] == 12
+        assert about["variants"]["local"]["models"]["rom"]["n_x"] == 12
         assert [band["limit"] for band in about["bands"]] == [0.5, 1e-8]
         assert any("viscosity" in note for note in about["notes"])
 
@@ -164,7 +166,7 @@ class TestResult:
             if row["statistic"] == "cost"
         }
         about = json.loads((finished[1] / "provenance.json").read_text(encoding="utf-8"))
-        steps = about["variants"]["local"]["rom"]["steps"]
+        steps = about["variants"]["local"]["models"]["rom"]["steps"]
         assert len(cost) == 2 * 3
         assert cost["local", "wall_time"] == (None, 881.072, "s")
         assert cost["local", "time_steps"] == (steps, 450, "1")

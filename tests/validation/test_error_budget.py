@@ -131,7 +131,7 @@ def test_the_healthy_artery_owes_its_error_to_inflow_and_mesh(against_the_real_r
     assert set(matched["status"]) == {""}
     with netCDF4.Dataset(against_the_real_run / "comparison.nc") as stored:
         parts, names = list(stored["part"][:]), list(stored["quantity"][:])
-        value = stored["error_budget"][0, names.index("pressure"), parts.index("mesh")]
+        value = stored["rom_error_budget"][0, names.index("pressure"), parts.index("mesh")]
     assert float(value) == pytest.approx(float(found["pressure", "mesh"]), rel=1e-12)
 
 

@@ -238,7 +238,7 @@ class TestChanges:
         assert list(metrics.change_rows(rows, {})) == []
 
     def test_no_ratio_over_nothing(self):
-        base = metric_row("c", "none", "pressure", "value", i=1, j=1, t_s=0.0, rom=0.0, reference=2.0)
+        base = metric_row("c", "none", "rom", "pressure", "value", i=1, j=1, t_s=0.0, rom=0.0, reference=2.0)
         here = replace(base, variant="local", rom=1.0, reference=3.0)
         (row,) = metrics.change_rows([base, here], {"none": "none", here.variant: "none"})
         assert (row.statistic, row.rom, row.reference, row.error) == ("change", 1.0, 1.0, 0.0)
@@ -273,7 +273,7 @@ def test_no_phase_lag_without_a_whole_cycle():
 def test_table_has_the_columns_in_their_order():
     table = to_frame(rows_of(two_models()))
     assert list(table.columns) == COLUMNS == [
-        "case", "variant", "quantity", "statistic", "inflow", "i", "j", "t_s",
+        "case", "variant", "model", "quantity", "statistic", "inflow", "i", "j", "t_s",
         "rom", "reference", "error", "unit", "band", "status",
     ]  # fmt: skip
     assert table["i"].max() <= N_X

@@ -50,13 +50,15 @@ def _below(section: Any, key: str | int) -> Any:
 def calibrated_text(calibration: Calibration, values: Floats) -> str:
     """Return the case file with other values of the parameters, SI, its comments kept.
 
-    A value goes where the file states it: in the variant, or else in the base, where it holds for all.
+    A value goes where the file states it: in the first model, or else in the variant, or else in the base,
+    where it holds for all.
     """
     content = _yaml().load(calibration.file.text)
     own = content.get("variants", {}).get(calibration.variant)
+    model = content.get("models", {}).get(next(iter(calibration.file.models)))
     for parameter, value in zip(calibration.parameters, values, strict=True):
         path = parameter.key.path
-        places = [tree for tree in (own, content) if tree is not None and _holds(tree, path)]
+        places = [tree for tree in (model, own, content) if tree is not None and _holds(tree, path)]
         section: Any = places[0] if places else content if own is None else own
         for key in path[:-1]:
             section = _below(section, key)

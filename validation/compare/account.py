@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 from cases.reading.case_file import CaseFile
+from cases.reading.models import labelled
 from cases.results.provenance import DeclaredBand, Provenance
 from cases.sections.case import Case
 from cases.sections.compare import Band
@@ -14,7 +15,6 @@ from validation.metrics.confidence import SEED
 from validation.reference.alignment import WHOLE
 from validation.runs.instants import nearest_states, wanted_instants
 from validation.runs.provenance import provenance
-from validation.runs.variants import labelled
 
 Runs = Mapping[str, Mapping[str, VariantRun]]  # by variant and model
 

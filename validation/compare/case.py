@@ -12,6 +12,7 @@ import xarray as xr
 
 from cases.arrays import Floats
 from cases.reading.case_file import CaseFile
+from cases.reading.models import labelled
 from cases.reading.template import load_template
 from cases.results.comparison_file import ERROR_BUDGET, PROFILE_ERROR_CURVE, variable
 from cases.results.metric_row import MetricRow, Status
@@ -44,7 +45,7 @@ from validation.reference.generated import check_computed, check_stated
 from validation.runs.cache import Cache
 from validation.runs.output import check_target, result_directory, write_json, write_metrics
 from validation.runs.reduced_model import ReducedModelRun
-from validation.runs.variants import Watch, align_variants, labelled, resolved, run_variants, watching
+from validation.runs.variants import Watch, align_variants, resolved, run_variants, watching
 
 VERDICTS: tuple[Status, ...] = ("OK", "FAIL", "MISSING")
 
@@ -148,7 +149,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
     check_computed(file.path, file.variants)
     with watching(cache) as watch, result_directory(target) as directory:
         file = replace(file, models=resolved(file.models, watch))
-        check_variants(file.models)
+        check_variants(file.variants)
         rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):
             write_metrics(directory, metrics.to_frame(rows))
@@ -175,9 +176,9 @@ def _compared(file: CaseFile, directory: Path, watch: Watch) -> tuple[list[Metri
         comparison_file(directory / "comparison.nc", list(file.variants), about) as stored,
         ThreadPoolExecutor(max_workers=1) as writer,  # netCDF works outside the interpreter's lock
     ):
-        for name, of_models in run_variants(file.models, alignments, watch, load_reports):
-            fields = all_models(of_models, times)
-            for model, run in of_models.items():
+        for name, by_model in run_variants(file.models, alignments, watch, load_reports):
+            fields = all_models(by_model, times)
+            for model, run in by_model.items():
                 inputs = uncertain_inputs(file, name, model, run, watch)
                 with watch.step("metrics"):
                     told = {"sparse": run.reference.sparse, "stated": run.reference.cycle}
@@ -190,7 +191,7 @@ def _compared(file: CaseFile, directory: Path, watch: Watch) -> tuple[list[Metri
             writing.append(writer.submit(_store, stored, name, fields, watch))
             with watch.step("files for ParaView"):
                 write_walls(directory, name, list(file.models), fields)
-            runs[name] = {model: without_fields(run) for model, run in of_models.items()}
+            runs[name] = {model: without_fields(run) for model, run in by_model.items()}
         for written in writing:
             written.result()
     ordered = [row for name in file.variants for model in file.models for row in rows[name, model]]

@@ -61,13 +61,8 @@ def baseline_of(file: CaseFile) -> str:
     return next(iter(baselines_of(file).values()), "")
 
 
-def check_variants(models: Mapping[str, Mapping[str, Case]]) -> None:
-    """Check before any run that the variants of all models can share one dataset.
-
-    Parameters
-    ----------
-    models : mapping of str to mapping of str to Case
-        By model and variant.
+def check_variants(cases: Mapping[str, Case]) -> None:
+    """Check before any run that variants can share one dataset; models differ in nothing of this.
 
     Raises
     ------
@@ -75,9 +70,8 @@ def check_variants(models: Mapping[str, Mapping[str, Case]]) -> None:
         If grids, periods or tabulated cells and instants differ, or the inlet lacks an instant that is to be
         tabulated.
     """
-    cases = [(name, case) for variants in models.values() for name, case in variants.items()]
-    first_name, first = cases[0]
-    for name, case in cases:
+    first_name, first = next(iter(cases.items()))
+    for name, case in cases.items():
         wanted_instants(case)
         for what, here, there in (
             ("solver.n_x", case.solver.n_x, first.solver.n_x),
@@ -88,9 +82,9 @@ def check_variants(models: Mapping[str, Mapping[str, Case]]) -> None:
             ("compare.times", case.compare.times, first.compare.times),
         ):
             if here != there:
-                whose = f"variants {first_name!r} and {name!r}" if name != first_name else "models"
                 raise ValidationError(
-                    f"{whose} differ in {what} ({there} and {here}); those compared in one report share it"
+                    f"variants {first_name!r} and {name!r} differ in {what} ({there} and {here}); "
+                    "variants compared in one report share it"
                 )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fnmatch
 import json
 import math
 import os
@@ -11,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cases.results.comparison_file import REFERENCE, ROM, variable
 from cases.shell.whole import write_text, write_whole_folder, writing
 from validation.errors import ValidationError
 
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 MARK = "provenance.json"  # every finished result has one
-PARAVIEW_FILES = "*_*.vtkhdf"  # MODEL_VARIANT
 RESULT_FILES = {
     MARK,
     "ablation.csv",
@@ -56,13 +55,21 @@ def check_target(target: Path) -> None:
         raise ValidationError(f"{target}: is the current directory; choose another --output")
 
 
-def is_result_file(name: str) -> bool:
-    """Whether a file of this name belongs to a result."""
-    return name in RESULT_FILES or fnmatch.fnmatchcase(name, PARAVIEW_FILES)
+def _models_of(mark: Path) -> set[str]:
+    """Models that an older result names, and those that every result may have."""
+    try:
+        variants = json.loads(mark.read_text(encoding="utf-8"))["variants"].values()
+        named = {str(model) for record in variants for model in record["models"]}
+    except (AttributeError, KeyError, OSError, TypeError, ValueError):  # by another version, or damaged
+        named = set()
+    return {REFERENCE, ROM} | named
 
 
 def _check_content(target: Path, names: set[str]) -> None:
-    strange = {name for name in names if not is_result_file(name)}
+    of_models = tuple(variable(model, "") for model in _models_of(target / MARK))
+    strange = {
+        name for name in names - RESULT_FILES if not (name.startswith(of_models) and name.endswith(".vtkhdf"))
+    }
     if not names or (MARK in names and not strange):
         return
     if MARK in names:

@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -10,6 +10,7 @@ from typing import Any
 
 from rich.progress import Progress as Display
 
+from cases.reading.models import labelled
 from cases.sections.case import Case
 from cases.sections.inlet import ReferenceInlet
 from cases.shell.terminal import progress
@@ -161,11 +162,6 @@ def run_variants(
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-def labelled(variant: str, model: str, models: Collection[str]) -> str:
-    """Name a variant, with its model where there are several."""
-    return variant if len(models) == 1 else f"{variant}, model {model}"
-
-
 def _reference(name: str, case: Case, alignment: Alignment, watch: Watch) -> Reference:
     """Map the reference of one variant."""
     with watch.step(f"{name}: 3D onto cells") as progress:
@@ -181,7 +177,7 @@ def _reduced_model(name: str, case: Case, alignment: Alignment, watch: Watch) ->
         try:
             return cached_rom(watch.cache, case, alignment, _points(case), progress, watch.remarks.append)
         except SolverError as error:
-            raise ValidationError(f"variant {name!r}: {error}") from error
+            raise ValidationError(f"variant {name}: {error}") from error
 
 
 def _sources(
@@ -195,7 +191,7 @@ def _sources(
         try:
             return sources_of(name, case, (rom, reference), watch.cache, progress, watch.remarks.append)
         except SolverError as error:
-            raise ValidationError(f"variant {name!r}: with the inflow of 3D: {error}") from error
+            raise ValidationError(f"variant {name}: with the inflow of 3D: {error}") from error
 
 
 def resolved(models: Mapping[str, Mapping[str, Case]], watch: Watch) -> dict[str, dict[str, Case]]:

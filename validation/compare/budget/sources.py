@@ -166,7 +166,7 @@ def _mesh(
         sizes = [level.elements for level in levels]
         if not refined_enough(levels):
             raise ValidationError(
-                f"variant {variant.name!r}: reference.levels: meshes of {', '.join(map(str, sizes))} lumen "
+                f"variant {variant.name}: reference.levels: meshes of {', '.join(map(str, sizes))} lumen "
                 "elements (plot_file last); allowed: from the coarsest on, each finer than the one before"
             )
         estimates = mesh_estimates(levels, case.inlet.period)
