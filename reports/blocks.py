@@ -37,7 +37,7 @@ class Warnings:
 
 @dataclass(frozen=True)
 class Listing:
-    """Text that is shown as it is: a command, a case file; one that is `attached` goes with a PDF as a file."""
+    """Text that is shown as it is: a command, a case file; `attached` names it as a file of a PDF."""
 
     caption: str
     text: str

@@ -1,4 +1,4 @@
-"""Section of the agreement of 2D and 3D over all cells and states: parity, and Bland and Altman's differences."""
+"""Section of the agreement of 2D and 3D over all cells and states: parity, and Bland and Altman."""
 
 from functools import partial
 

@@ -122,11 +122,17 @@ def section(comparison: Comparison) -> Blocks:
             variant,
             [
                 _tube(data[f"{model}_radius"].values.astype(float), data["calcified"].values, seen)
-                for model in ("reference", "rom")
+                for data, model in [(of_3d, "reference"), *((data, "rom") for data in of_models)]
             ],
         )
         for variant in comparison.variants
-        for data in (fields.sel(variant=variant),)
+        for of_3d in (fields.sel(variant=variant),)
+        for of_models in (
+            [
+                comparison.of(name).fields.isel(time=state).sel(variant=variant)
+                for name in comparison.models
+            ],
+        )
     ]
     least = _narrowest(comparison, state)
     drawn = (
@@ -147,7 +153,7 @@ def section(comparison: Comparison) -> Blocks:
             1e3 * fields["x"].values,
             fields["phi"].values,
             seen.seen_from,
-            ("3D", "2D"),
+            ("3D", *(headed(comparison, model) for model in comparison.models)),
             rows,
             "R (mm)",
         ),

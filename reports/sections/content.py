@@ -29,7 +29,8 @@ def report(comparison: Comparison) -> Report:
     """Compose the report of a comparison; every figure is drawn here."""
     return Report(
         title=comparison.title or comparison.case,
-        subtitle=f"{_models(comparison)} against three-dimensional fluid–structure simulation (3D), cell by cell.",
+        subtitle=f"{_models(comparison)} against three-dimensional fluid–structure simulation (3D), "
+        "cell by cell.",
         identity=identity(comparison),
         created=comparison.provenance.created,
         sections=tuple(section for declared in SECTIONS if (section := declared(comparison))),

@@ -29,10 +29,8 @@ def heat_table(comparison: Comparison) -> Table | None:
         return None
     return Table(
         "answer-table",
-        "Error over its limit: above 1 is beyond it, the darker the further. Below it, over the same "
-        "limit, the error with the inflow of 3D and what the 3D mesh leaves open. In grey the largest "
-        "errors that no limit judges: root mean squares over all cells and states, or of a number of the "
-        "cycle.",
+        "Error over its limit (above 1 is beyond it); below it, over the same limit, the error with the "
+        "inflow of 3D and what the 3D mesh leaves open; in grey the largest errors that no limit judges.",
         (
             Column("quantity", "prose"),
             *(Column(headed(comparison, model), "number", variant) for variant, model in places),

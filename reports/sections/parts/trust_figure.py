@@ -42,8 +42,8 @@ def trust_figure(comparison: Comparison) -> Figure:
     )
     return Figure(
         "trust-map",
-        "The artery unrolled: largest error over the cycle over its limit, of all that limits judge. "
-        f"Blue is inside every limit, orange outside. Share of the wall inside: {said}.",
+        "The artery unrolled: in each cell the largest error over its limit, blue inside every limit, "
+        f"orange outside. Share of the wall inside: {said}.",
         f"Maps over x and φ of where each model is within its limits. Share inside: {said}.",
         partial(
             trust_map,
