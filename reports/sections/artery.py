@@ -5,17 +5,17 @@ from functools import partial
 
 import numpy as np
 
-from cases.arrays import Floats
 from reports.blocks import Figure, Interactive
 from reports.figures.tubes import Tube, tubes
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, Need, declared, instants
 from reports.sections.parts.lumen import cells_header, cells_text, field
-from reports.wording.numbers import SPACE, fixed, listed, share
-from reports.wording.words import baseline_words, instant, spot
+from reports.sections.parts.models import headed
+from reports.sections.parts.places import place_words
+from reports.wording.numbers import SPACE, fixed, listed
+from reports.wording.words import instant
 
 _EXAGGERATIONS = (20, 10, 5, 3, 2)
-_NARROWER = 0.01  # a difference of the radius that is read as narrowing
 _MOST_DRAWN = 0.35  # of the radius: a change drawn larger is no artery any more
 
 
@@ -63,46 +63,32 @@ def _middle(comparison: Comparison) -> float:
     return float(np.angle((share * np.exp(1j * comparison.fields["phi"].values)).sum()) % (2 * np.pi))
 
 
-def _tube(data: Floats, calcified: Floats, seen: View) -> Tube:
-    drawn = seen.rest_radius + seen.exaggeration * (data - seen.rest_radius)
-    return Tube(1e3 * drawn, 1e3 * data, calcified > 0)
+def _lumens(comparison: Comparison, variant: str, state: int, seen: View) -> list[Tube]:
+    """One variant's lumen in 3D and in each reduced model."""
+    sides = [(comparison, "reference"), *((comparison.of(model), "rom") for model in comparison.models)]
+    tubes_of = []
+    for of, model in sides:
+        data = of.fields.isel(time=state).sel(variant=variant)
+        radius = data[f"{model}_radius"].values.astype(float)
+        drawn = seen.rest_radius + seen.exaggeration * (radius - seen.rest_radius)
+        tubes_of.append(Tube(1e3 * drawn, 1e3 * radius, data["calcified"].values > 0))
+    return tubes_of
 
 
 def _narrowest(comparison: Comparison, state: int) -> str:
-    """Say where each variant is narrowest in both models."""
+    """Say where each variant is narrowest in each model."""
+    sides = [("3D", comparison, "reference")]
+    sides += [(headed(comparison, model), comparison.of(model), "rom") for model in comparison.models]
     said = []
     for name in comparison.variants:
-        data = comparison.fields.sel(variant=name).isel(time=state)
         found = []
-        for model, words in (("reference", "3D"), ("rom", "2D")):
-            radius = field(data, f"{model}_radius", 1e3)
+        for words, of, model in sides:
+            radius = field(of.fields.sel(variant=name).isel(time=state), f"{model}_radius", 1e3)
             i, j = np.unravel_index(int(radius.argmin()), radius.shape)
-            found.append(
-                f"{fixed(float(radius[i, j]), 3)}{SPACE}mm in {words} ({spot(int(i) + 1, int(j) + 1, None)})"
-            )
-        said.append(f"{name}: {' and '.join(found)}")
+            where = place_words(comparison, int(i) + 1, int(j) + 1)
+            found.append(f"{words} {fixed(float(radius[i, j]), 3)}{SPACE}mm ({where})")
+        said.append(f"{name}: {', '.join(found)}")
     return "; ".join(said)
-
-
-def _reach(comparison: Comparison, state: int) -> str:
-    """Say how much of the wall beside the calcification is narrower than the baseline's; "" without one."""
-    fields = comparison.fields.isel(time=state)
-    said = []
-    for name in comparison.changed:
-        data, base = fields.sel(variant=name), fields.sel(variant=comparison.baselines[name])
-        beside = data["calcified"].values == 0
-        if beside.any():
-            three, two = (
-                share(float((data[radius] < (1 - _NARROWER) * base[radius]).values[beside].mean()))
-                for radius in ("reference_radius", "rom_radius")
-            )
-            said.append(f"{name} {three} in 3D and {two} in 2D")
-    return (
-        f"; of the other cells, narrower than in {baseline_words(comparison)} by more than "
-        f"{share(_NARROWER)} are: {', '.join(said)}"
-        if said
-        else ""
-    )
 
 
 SHAPE = Need(
@@ -117,23 +103,7 @@ def section(comparison: Comparison) -> Blocks:
     state = comparison.states[0]
     seen = view(comparison)
     fields = comparison.fields.isel(time=state)
-    rows = [
-        (
-            variant,
-            [
-                _tube(data[f"{model}_radius"].values.astype(float), data["calcified"].values, seen)
-                for data, model in [(of_3d, "reference"), *((data, "rom") for data in of_models)]
-            ],
-        )
-        for variant in comparison.variants
-        for of_3d in (fields.sel(variant=variant),)
-        for of_models in (
-            [
-                comparison.of(name).fields.isel(time=state).sel(variant=variant)
-                for name in comparison.models
-            ],
-        )
-    ]
+    rows = [(variant, _lumens(comparison, variant, state, seen)) for variant in comparison.variants]
     least = _narrowest(comparison, state)
     drawn = (
         "deformation true to scale"
@@ -144,8 +114,7 @@ def section(comparison: Comparison) -> Blocks:
     still = Figure(
         key="artery-still",
         caption=f"The deformed lumen at {instant(name, t_s)} in 3D and 2D, coloured by its radius, in one "
-        f"scale; {drawn}. Narrowest: {least}. What to see: how far the narrowing reaches beyond the "
-        f"calcified cells (framed){_reach(comparison, state)}. Drawn by projection, without OpenGL.",
+        f"scale; {drawn}; framed: calcified. Narrowest: {least}.",
         alt=f"The deformed lumen of {listed(comparison.variants)} in 3D and 2D seen from the side. "
         f"Narrowest: {least}.",
         drawing=partial(

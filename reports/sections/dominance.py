@@ -194,10 +194,7 @@ def _csv(comparison: Comparison, lines: Sequence[tuple[str, Sequence[Floats]]]) 
 @declared("dominance", "Axial dominance")
 def section(comparison: Comparison) -> Blocks:
     """Return how small the neglected velocities are, and where."""
-    said = (
-        _dominance_sentence(comparison),
-        *(_implied_sentence(comparison.of(model)) for model in comparison.models),
-    )
+    said = (_dominance_sentence(comparison), _implied_sentence(comparison))
     drawn = f"reference_{RADIAL}" in comparison.fields and comparison.n_phi > 1
     return (Paragraph(" ".join(filter(None, said))), *((_figure(comparison),) if drawn else ()))
 
