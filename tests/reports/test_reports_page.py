@@ -1,6 +1,5 @@
 """The page in a real browser, opened from the file system."""
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -221,7 +220,11 @@ def test_a_click_on_the_map_opens_that_places_curves(opened: Opened, finished: F
     assert j >= 7
     with _data(finished[0]) as data:
         cell = data.sel(variant="local").isel(x=i - 1, phi=j - 1)
-        for line, model in zip(curves.evaluate("(place) => place.drawn.map((line) => [...line.y])"), ("reference", "rom"), strict=False):
+        for line, model in zip(
+            curves.evaluate("(place) => place.drawn.map((line) => [...line.y])"),
+            ("reference", "rom"),
+            strict=False,
+        ):
             np.testing.assert_allclose(line, 1e3 * cell[f"{model}_radius"].values, atol=2e-4)
 
 
@@ -374,12 +377,18 @@ def test_a_wide_table_scrolls_beside_its_first_column(browser: Browser, finished
     left = frame.evaluate("(frame) => frame.getBoundingClientRect().left")
     cells = "(cells) => cells.map((cell) => cell.getBoundingClientRect().left)"
     assert frame.evaluate("(frame) => frame.scrollLeft") == 150
-    assert frame.locator("tbody th").evaluate_all(cells) == pytest.approx([left] * frame.locator("tbody th").count(), abs=1)
+    assert frame.locator("tbody th").evaluate_all(cells) == pytest.approx(
+        [left] * frame.locator("tbody th").count(), abs=1
+    )
     one.page.context.close()
 
 
-def test_the_first_picture_is_within_three_screens_of_a_telephone(browser: Browser, finished: Finished) -> None:
+def test_the_first_picture_is_within_three_screens_of_a_telephone(
+    browser: Browser, finished: Finished
+) -> None:
     one = _open(browser, finished[0], viewport=NARROW)
-    top = one.page.locator("figure, [data-interactive]").first.evaluate("(e) => e.getBoundingClientRect().top")
+    top = one.page.locator("figure, [data-interactive]").first.evaluate(
+        "(e) => e.getBoundingClientRect().top"
+    )
     assert top < 3 * NARROW["height"]
     one.page.context.close()
