@@ -1,4 +1,4 @@
-"""What a report costs the browser that opens it: bytes, time until it can be used, blocked stretches, sliders.
+"""What a report costs the browser that opens it: bytes, time until it can be used, blocked stretches, steps.
 
     python benchmarks/report_page.py REPORT.html [REPORT.html …] [--chromium PATH] [--width PX]
 
@@ -54,9 +54,10 @@ STEP = """
 
 SLIDERS = """
 (key) => {
-  const labels = (root) => [...(root?.querySelectorAll("input[type=range]") ?? [])].filter((input) => !input.disabled)
-    .map((input) => input.labels[0].textContent);
-  return [...new Set([...labels(document.getElementById(key)), ...labels(document.getElementById("choice"))])];
+  const labels = (root) => [...(root?.querySelectorAll("input[type=range]") ?? [])]
+    .filter((input) => !input.disabled).map((input) => input.labels[0].textContent);
+  const hosts = [key, "choice"].map((id) => document.getElementById(id));
+  return [...new Set(hosts.flatMap(labels))];
 }
 """
 

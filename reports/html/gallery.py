@@ -2,15 +2,16 @@
 
 import os
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from urllib.parse import quote
 
 from cases.results.metric_row import Status
-from reports.blocks import Report
+from reports.blocks import Report, Table
 from reports.html.render import environment
 from reports.result.load import Comparison
-from reports.sections.verdict import by_variant, headline
+from reports.sections.answer import answer, which_model
+from reports.sections.parts.heat_table import heat_table
 
 RANKS: dict[Status, int] = {"FAIL": 0, "MISSING": 1, "OK": 2}
 
@@ -35,6 +36,8 @@ class Entry:
         SVG of the artery, and the words that stand for it; "" for none.
     page, pdf : str
         Names of its report's files.
+    table : Table or None
+        Errors over their limits by pattern, model and quantity.
     """
 
     directory: Path
@@ -48,14 +51,16 @@ class Entry:
     alt: str
     page: str
     pdf: str
+    table: Table | None = None
 
 
 def entry(directory: Path, comparison: Comparison, report: Report, drawings: dict[str, str]) -> Entry:
     """Sum up one comparison: bands that fail come first, by how far, then missing ones, then held ones."""
-    bands = comparison.metrics.bands()
+    bands = [row for model in comparison.models for row in comparison.of(model).metrics.bands()]
     judged = ([row.status for row in bands], [row.ratio for row in bands if row.error is not None])
-    said = (headline(comparison), by_variant(comparison))
-    return summed_up(directory, report, drawings, said, judged, "artery-still")
+    said = (which_model(comparison), tuple(answer(comparison, name) for name in comparison.variants))
+    summary = summed_up(directory, report, drawings, said, judged, "artery-still")
+    return replace(summary, table=heat_table(comparison))
 
 
 def summed_up(

@@ -118,8 +118,7 @@ def section(comparison: Comparison) -> Blocks:
         "exponents-anywhere",
         "errors",
         "The error over γ, with its values",
-        "Of the shown cell and instant that are nearest to the chosen ones; point at the curve for its "
-        "values.",
+        "Of the shown cell and instant nearest to the chosen ones; point at the curve for its values.",
         {"errors": _error_data(comparison)} if shown else {},
     )
     return (

@@ -42,7 +42,8 @@ def overflowing(page: Page) -> list[str]:
         """() => [...document.querySelectorAll("body *")]
             .filter((e) => e.checkVisibility() && !e.closest("dialog, svg, .plot, .unseen, .scroll > *"))
             .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
-                || (!e.matches(".scroll") && getComputedStyle(e).overflowX !== "visible" && e.scrollWidth > e.clientWidth + 1))
+                || (!e.matches(".scroll") && getComputedStyle(e).overflowX !== "visible"
+                    && e.scrollWidth > e.clientWidth + 1))
             .map((e) => `${e.tagName} ${e.id} ${e.className} ${e.textContent.slice(0, 40)}`)"""
     )
     wide = page.evaluate("document.documentElement.scrollWidth > innerWidth")
