@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from pydantic import TypeAdapter
 
+from cases.arrays import Floats
 from cases.results import comparison_file
 from cases.results.comparison_file import CALCIFIED, MODELS, REFERENCE, ROM, WALL_STIFFNESS, variable
 from cases.results.provenance import Provenance, ReducedModelSettings
@@ -114,6 +115,10 @@ class Comparison:
     def of(self, model: str) -> "Comparison":
         """Return this comparison with another of its reduced models in view."""
         return self.views.get(model, self)
+
+    def array(self, name: str, variant: str) -> Floats:
+        """Values of a field of one variant over the cycle, as stored and SI."""
+        return np.asarray(self.fields[name].values[self.variants.index(variant)], dtype=float)
 
     def settings(self, variant: str) -> ReducedModelSettings:
         """How the model in view ran for a variant."""

@@ -20,8 +20,7 @@ _MOST = 2  # quantities, those that limits judge first
 
 
 def _values(view: Comparison, model: str, quantity: str, variant: str) -> Floats:
-    field = view.fields[f"{model}_{quantity}"].sel(variant=variant)
-    return np.asarray(FIELDS[quantity].display_factor * field.values.astype(float))
+    return FIELDS[quantity].display_factor * view.array(f"{model}_{quantity}", variant)
 
 
 def _row(view: Comparison, quantity: str) -> Agreement:

@@ -9,7 +9,7 @@ from reports.blocks import Figure, Interactive
 from reports.figures.tubes import Tube, tubes
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, Need, declared, instants
-from reports.sections.parts.lumen import cells_header, cells_text, field
+from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import headed
 from reports.sections.parts.places import place_words
 from reports.wording.numbers import SPACE, fixed, listed
@@ -63,27 +63,30 @@ def _middle(comparison: Comparison) -> float:
     return float(np.angle((share * np.exp(1j * comparison.fields["phi"].values)).sum()) % (2 * np.pi))
 
 
+def _sides(comparison: Comparison) -> list[tuple[str, Comparison, str]]:
+    """Words, view and name in it of 3D and of each reduced model."""
+    models = [(headed(comparison, model), comparison.of(model), "rom") for model in comparison.models]
+    return [("3D", comparison, "reference"), *models]
+
+
 def _lumens(comparison: Comparison, variant: str, state: int, seen: View) -> list[Tube]:
     """One variant's lumen in 3D and in each reduced model."""
-    sides = [(comparison, "reference"), *((comparison.of(model), "rom") for model in comparison.models)]
-    tubes_of = []
-    for of, model in sides:
-        data = of.fields.isel(time=state).sel(variant=variant)
-        radius = data[f"{model}_radius"].values.astype(float)
+    calcified = comparison.fields["calcified"].sel(variant=variant).values > 0
+    found = []
+    for _, of, model in _sides(comparison):
+        radius = of.array(f"{model}_radius", variant)[state]
         drawn = seen.rest_radius + seen.exaggeration * (radius - seen.rest_radius)
-        tubes_of.append(Tube(1e3 * drawn, 1e3 * radius, data["calcified"].values > 0))
-    return tubes_of
+        found.append(Tube(1e3 * drawn, 1e3 * radius, calcified))
+    return found
 
 
 def _narrowest(comparison: Comparison, state: int) -> str:
     """Say where each variant is narrowest in each model."""
-    sides = [("3D", comparison, "reference")]
-    sides += [(headed(comparison, model), comparison.of(model), "rom") for model in comparison.models]
     said = []
     for name in comparison.variants:
         found = []
-        for words, of, model in sides:
-            radius = field(of.fields.sel(variant=name).isel(time=state), f"{model}_radius", 1e3)
+        for words, of, model in _sides(comparison):
+            radius = 1e3 * of.array(f"{model}_radius", name)[state]
             i, j = np.unravel_index(int(radius.argmin()), radius.shape)
             where = place_words(comparison, int(i) + 1, int(j) + 1)
             found.append(f"{words} {fixed(float(radius[i, j]), 3)}{SPACE}mm ({where})")
@@ -126,7 +129,7 @@ def section(comparison: Comparison) -> Blocks:
             rows,
             "R (mm)",
         ),
-        csv=_csv(comparison, t_s, state),
+        csv=_csv(comparison, state),
     )
     turned = Interactive(
         "artery-turned",
@@ -145,8 +148,12 @@ def section(comparison: Comparison) -> Blocks:
     return still, turned
 
 
-def _csv(comparison: Comparison, t_s: float, state: int) -> str:
-    names = ("reference_radius", "rom_radius", "calcified")
-    fields = comparison.fields.isel(time=state)
-    lines = (cells_text(t_s, fields.sel(variant=name), names, (name,)) for name in comparison.variants)
-    return "".join((cells_header(("variant",), names), *lines))
+def _csv(comparison: Comparison, state: int) -> str:
+    return cells_table(
+        comparison,
+        {
+            f"{name} {side} R_m": of.array(f"{model}_radius", name)[state]
+            for name in comparison.variants
+            for side, of, model in _sides(comparison)
+        },
+    )

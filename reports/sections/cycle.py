@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from functools import partial
 
-import numpy as np
-
 from cases.arrays import Floats
 from cases.fields import FIELDS
 from reports.blocks import Figure, Paragraph
@@ -27,8 +25,8 @@ _OF_ROWS, _OF_SECTIONS = ("pressure", "radius", "sector_flow_rate"), ("section_f
 
 
 def _values(variant: str, quantity: str, i: int, j: int | None, view: Comparison, model: str) -> Floats:
-    data = view.fields[f"{model}_{quantity}"].sel(variant=variant).isel(x=i - 1)
-    return np.asarray((data if j is None else data.isel(phi=j - 1)).values, dtype=float)
+    values = view.array(f"{model}_{quantity}", variant)[:, i - 1]
+    return values if j is None else values[:, j - 1]
 
 
 def _rows(comparison: Comparison, variant: str, columns: Sequence[int]) -> list[GridRow]:

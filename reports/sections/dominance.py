@@ -1,6 +1,5 @@
 """Section on axial dominance: how small the velocities are that the 2D model neglects."""
 
-from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -12,9 +11,9 @@ from reports.figures.dominance_map import dominance_map
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts.cells import chunks
+from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import headed
 from reports.sections.parts.places import place_words
-from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import ABSENT, SPACE, fixed, listed
 from reports.wording.words import place
 
@@ -177,18 +176,15 @@ def _figure(comparison: Comparison) -> Figure:
             fields["calcified"].values > 0,
             label="$|v_r|/v_x$",
         ),
-        _csv(comparison, lines),
+        cells_table(
+            comparison,
+            {
+                f"{name} {label}": values
+                for label, of in lines
+                for name, values in zip(comparison.variants, of, strict=True)
+            },
+        ),
     )
-
-
-def _csv(comparison: Comparison, lines: Sequence[tuple[str, Sequence[Floats]]]) -> str:
-    rows = [
-        (variant, label, i + 1, j + 1, float(values[i, j]))
-        for label, of in lines
-        for variant, values in zip(comparison.variants, of, strict=True)
-        for i, j in np.ndindex(values.shape)
-    ]
-    return comma_separated(("variant", "model", "i", "j", "ratio"), rows)
 
 
 @declared("dominance", "Axial dominance")

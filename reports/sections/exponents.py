@@ -11,7 +11,7 @@ from reports.blocks import Figure, Interactive, Paragraph
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
-from reports.sections.parts.lumen import cells_header, cells_text
+from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import headed
 from reports.sections.parts.page_data import digits, pack
 from reports.sections.parts.places import place_words
@@ -79,19 +79,15 @@ def _figure(comparison: Comparison, variants: Sequence[str]) -> Figure:
             shown["calcified"].values > 0,
             "framed: calcified",
         ),
-        csv=_csv(comparison, variants),
+        csv=cells_table(
+            comparison,
+            {
+                f"{name} {label}": values
+                for label, of in lines
+                for name, values in zip(variants, of, strict=True)
+            },
+        ),
     )
-
-
-def _csv(comparison: Comparison, variants: Sequence[str]) -> str:
-    names = ("reference_profile_exponent", "rom_profile_exponent", "reference_profile_error")
-    lines = (
-        cells_text(t, comparison.of(model).maps.sel(variant=name).isel(time=k), names, (name, model))
-        for name in variants
-        for model in comparison.models
-        for k, (_, t) in enumerate(comparison.times[:1])
-    )
-    return "".join((cells_header(("variant", "model"), names), *lines))
 
 
 @declared("exponents", "Closest γ", instants("maps"))

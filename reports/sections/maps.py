@@ -11,7 +11,7 @@ from reports.figures.limit_maps import LimitRow, limit_maps
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.overview import limit_of
-from reports.sections.parts.lumen import cells_header, cells_text
+from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import headed
 from reports.sections.parts.places import place_words
 from reports.sections.parts.stated import mostly, stated_variants
@@ -25,8 +25,8 @@ _AS = {"sector_flow_rate": "section_flow_rate"}  # whose limit counts where a qu
 
 def _percent(comparison: Comparison, variant: str, quantity: str) -> Floats:
     """2D − 3D at the first named instant, in percent of 3D, (x, phi)."""
-    data = comparison.maps.sel(variant=variant).isel(time=0)
-    rom, reference = (data[f"{model}_{quantity}"].values.astype(float) for model in ("rom", "reference"))
+    state = comparison.states[0]
+    rom, reference = (comparison.array(f"{m}_{quantity}", variant)[state] for m in ("rom", "reference"))
     with np.errstate(divide="ignore", invalid="ignore"):
         found = 100 * (rom / reference - 1)
     return np.asarray(np.where(np.isfinite(found), found, np.nan))
@@ -94,19 +94,15 @@ def _figure(comparison: Comparison, variants: list[str]) -> Figure:
 
 
 def _csv(comparison: Comparison, quantities: list[str], variants: list[str]) -> str:
-    names = ["reference_" + name for name in quantities]
-    header = cells_header(("variant", "model"), [*names, *(f"rom_{name}" for name in quantities)])
-    lines = [
-        cells_text(
-            comparison.times[0][1],
-            comparison.of(model).maps.sel(variant=variant).isel(time=0),
-            [*names, *(f"rom_{name}" for name in quantities)],
-            (variant, model),
-        )
-        for variant in variants
-        for model in comparison.models
-    ]
-    return "".join((header, *lines))
+    return cells_table(
+        comparison,
+        {
+            f"{name} {model} {quantity} percent": _percent(comparison.of(model), name, quantity)
+            for name in variants
+            for model in comparison.models
+            for quantity in quantities
+        },
+    )
 
 
 @declared("maps", "Where 2D differs", instants("maps"))

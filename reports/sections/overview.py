@@ -22,8 +22,8 @@ _QUANTITIES = {"pressure": "$P$", "radius": "$R$", "section_flow_rate": "$q$"}
 
 def _cell(comparison: Comparison, variant: str, name: str, i: int, j: int) -> Floats:
     """Values of a variable over the cycle in a cell, or in its section."""
-    values = comparison.fields[name].sel(variant=variant).isel(x=i - 1)
-    return np.asarray((values.isel(phi=j - 1) if "phi" in values.dims else values).values, dtype=float)
+    values = comparison.array(name, variant)[:, i - 1]
+    return values[:, j - 1] if values.ndim > 1 else values
 
 
 def _cycle(comparison: Comparison, variant: str, quantity: str, i: int, j: int) -> Cycle:

@@ -25,9 +25,8 @@ _RADIUS = "r/R"
 
 def _values(variant: str, state: int, i: int, j: int, view: Comparison, model: str) -> Floats:
     """Axial velocity along a ray at a named instant, (y,)."""
-    data = view.profiles[f"{model}_axial_velocity"].sel(variant=variant)
-    at = data.isel(time=view.states[state], x=view.i.index(i), phi=view.j.index(j))
-    return np.asarray(at.values, dtype=float)
+    values = view.profiles[f"{model}_axial_velocity"].values[view.variants.index(variant)]
+    return np.asarray(values[view.states[state], view.i.index(i), view.j.index(j)], dtype=float)
 
 
 def profile_row(

@@ -26,15 +26,14 @@ def over_limit(comparison: Comparison, row: MetricRow) -> Floats | None:
         None where the report does not hold the quantity's field, or the statistic is of one instant.
     """
     names = [f"{model}_{row.quantity}" for model in ("rom", "reference")]
-    data = comparison.fields.sel(variant=row.variant)
-    if not row.band or any(name not in data for name in names):
+    if not row.band or any(name not in comparison.fields for name in names):
         return None
-    rom, reference = (data[name].values.astype(float) for name in names)
+    rom, reference = (comparison.array(name, row.variant) for name in names)
     error = _error(row.statistic, rom, reference)
     if error is None:
         return None
     ratio = error / row.band
-    return np.broadcast_to(ratio if ratio.ndim == 2 else ratio[:, None], (data.sizes["x"], comparison.n_phi))
+    return np.broadcast_to(ratio if ratio.ndim == 2 else ratio[:, None], (ratio.shape[0], comparison.n_phi))
 
 
 def _error(statistic: str, rom: Floats, reference: Floats) -> Floats | None:

@@ -1,33 +1,21 @@
-"""Fields on all cells of the lumen at one instant, as data."""
+"""Fields on all cells of the lumen, as data."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 
 import numpy as np
-import xarray as xr
 
 from cases.arrays import Floats
+from reports.result.load import Comparison
 from reports.wording.csv_text import comma_separated
 
-CELL_COLUMNS = ("t_s", "i", "j", "x_m", "phi_rad")
 DIGITS = 6  # thousands of cells: more would double the report
 
 
-def field(data: xr.Dataset, name: str, factor: float = 1.0) -> Floats:
-    """Values of a variable times `factor`."""
-    return factor * data[name].values.astype(float)
-
-
-def cells_header(first: Sequence[str], names: Sequence[str]) -> str:
-    """First line of the data of all cells, below which :func:`cells_text` fits."""
-    return comma_separated((*first, *CELL_COLUMNS, *names), ())
-
-
-def cells_text(t_s: float, data: xr.Dataset, names: Sequence[str], first: Sequence[str] = ()) -> str:
-    """Lines of all cells at one time: what stands `first` in each, the columns of a cell, the variables."""
-    x, phi = np.meshgrid(data["x"].values, data["phi"].values, indexing="ij")
+def cells_table(comparison: Comparison, columns: Mapping[str, Floats]) -> str:
+    """A line a cell with its numbers and centre, and a column for each map, (x, phi)."""
+    x, phi = np.meshgrid(comparison.fields["x"].values, comparison.fields["phi"].values, indexing="ij")
     i, j = np.indices(x.shape) + 1
-    columns = [values.ravel().tolist() for values in (i, j, x, phi, *(field(data, name) for name in names))]
-    number = f"%.{DIGITS}g"
-    start = comma_separated((*first, f"{t_s:.{DIGITS}g}"), ()).rstrip("\n").replace("%", "%%")
-    line = f"{start},%d,%d" + f",{number}" * (len(columns) - 2) + "\n"
-    return "".join([line % row for row in zip(*columns, strict=True)])  # a line at once: there are thousands
+    lines = zip(*(values.ravel().tolist() for values in (i, j, x, phi, *columns.values())), strict=True)
+    line = "%d,%d" + f",%.{DIGITS}g" * (2 + len(columns)) + "\n"
+    header = comma_separated(("i", "j", "x_m", "phi_rad", *columns), ())
+    return header + "".join([line % row for row in lines])

@@ -9,8 +9,8 @@ from reports.blocks import Figure
 from reports.figures.trust_map import TrustRow, trust_map
 from reports.result.load import Comparison
 from reports.sections.parts.limits import worst_over_limits
+from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import headed
-from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import listed, share
 
 
@@ -53,13 +53,12 @@ def trust_figure(comparison: Comparison) -> Figure:
             [TrustRow(headed(comparison, model), tuple(maps)) for model, maps in ratios.items()],
             fields["calcified"].values > 0,
         ),
-        comma_separated(
-            ("variant", "model", "i", "j", "error_over_limit"),
-            [
-                (name, model, i + 1, j + 1, float(values[i, j]))
+        cells_table(
+            comparison,
+            {
+                f"{name} {model}": values
                 for model, maps in ratios.items()
                 for name, values in zip(comparison.variants, maps, strict=True)
-                for i, j in np.ndindex(values.shape)
-            ],
+            },
         ),
     )
