@@ -21,7 +21,7 @@ _SYMBOLS = {
     "sector_flow_rate": r"$q_\varphi$",
     "section_flow_rate": "$q$",
 }
-_OF_ROWS, _OF_SECTIONS = ("pressure", "radius", "sector_flow_rate"), ("section_flow_rate",)
+_OF_ROWS, _OF_SECTIONS = ("radius", "sector_flow_rate"), ("section_flow_rate",)
 
 
 def _values(variant: str, quantity: str, i: int, j: int | None, view: Comparison, model: str) -> Floats:
@@ -31,7 +31,8 @@ def _values(variant: str, quantity: str, i: int, j: int | None, view: Comparison
 
 def _rows(comparison: Comparison, variant: str, columns: Sequence[int]) -> list[GridRow]:
     """Rows of panels of what the reference states: each quantity along each row j, then of sections."""
-    lines = [(name, j) for name in _OF_ROWS for j in comparison.rows_of(variant)]
+    lines = [("pressure", comparison.rows_of(variant)[0])]  # it hardly differs around a section
+    lines += [(name, j) for name in _OF_ROWS for j in comparison.rows_of(variant)]
     if not comparison.wall_varies_around[variant]:
         lines = [line for line in lines if line[0] != "sector_flow_rate"]  # all are alike
     rows = []
