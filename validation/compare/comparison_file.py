@@ -1,15 +1,17 @@
 """comparison.nc, written variant by variant as each is finished, so that none waits in memory."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
+import h5py
 import netCDF4
 import numpy as np
 import xarray as xr
 
 from validation.errors import ValidationError
+from validation.runs.packed import Packed, X, chunk_of, packable, packed_of
 
 
 class ComparisonFile:
@@ -28,13 +30,14 @@ class ComparisonFile:
     def __init__(self, file: netCDF4.Dataset, variants: Sequence[str], attributes: Mapping[str, Any]) -> None:
         self._file = file
         self._variants = list(variants)
+        self._blocks: list[tuple[str, tuple[int, ...], bytes]] = []
         file.setncatts(dict(attributes))
         file.createDimension("variant", len(self._variants))
         names = file.createVariable("variant", str, ("variant",))
         names[:] = np.array(self._variants, dtype=object)
 
     def write(self, variant: str, dataset: xr.Dataset) -> None:
-        """Write one variant; all have the same axes.
+        """Write one variant; all have the same axes. Values of cells wait, packed, for :meth:`finish`.
 
         Raises
         ------
@@ -43,10 +46,22 @@ class ComparisonFile:
         """
         try:
             self._define(dataset)
+            index = self._variants.index(variant)
             for name, values in dataset.data_vars.items():
-                self._file[str(name)][self._variants.index(variant)] = values.to_numpy()
-        except (OSError, RuntimeError) as error:  # netCDF reports a full disk as RuntimeError
-            raise ValidationError(f"comparison.nc cannot be written: {error}") from error
+                if packable(values):
+                    self._blocks += _blocks(str(name), index, packed_of(values))
+                else:
+                    self._file[str(name)][index] = values.to_numpy()
+        except (OSError, RuntimeError) as error:
+            raise _unwritable(error) from error
+
+    def finish(self) -> None:
+        """Close the file and put into it what is packed, chunk by chunk: nothing is packed twice."""
+        path = self._file.filepath()
+        self._file.close()
+        with h5py.File(path, "r+") as file:
+            for name, offsets, block in self._blocks:
+                file[name].id.write_direct_chunk(offsets, block)
 
     def _define(self, dataset: xr.Dataset) -> None:
         """Add axes and variables that no earlier variant had: another model may give more fields."""
@@ -77,9 +92,16 @@ class ComparisonFile:
 
 
 def _chunks(values: xr.DataArray) -> tuple[int, ...]:
-    """One variant, and of fields on cells one state: what is read at once."""
-    by_state = "time" in values.dims and "phi" in values.dims
-    return (1, *(1 if dim == "time" and by_state else size for dim, size in values.sizes.items()))
+    """One variant, and of values of cells a block."""
+    return (1, *(chunk_of(values) if packable(values) else values.shape))
+
+
+def _blocks(name: str, variant: int, packed: Packed) -> Iterator[tuple[str, tuple[int, ...], bytes]]:
+    """Blocks of a variable with the numbers of their first entries."""
+    for number, block in enumerate(packed.blocks):
+        first = [0] * packed.ndim
+        first[X] = number * packed.chunk[X]
+        yield name, (variant, *first), block
 
 
 @contextmanager
@@ -96,6 +118,17 @@ def comparison_file(
     try:
         file = netCDF4.Dataset(path, "w", format="NETCDF4")
     except OSError as error:
-        raise ValidationError(f"comparison.nc cannot be written: {error.strerror or error}") from error
-    with file:
-        yield ComparisonFile(file, variants, attributes)
+        raise _unwritable(error) from error
+    with ExitStack() as stack:
+        stack.callback(lambda: file.isopen() and file.close())
+        stored = ComparisonFile(file, variants, attributes)
+        yield stored
+        try:
+            stored.finish()
+        except (OSError, RuntimeError) as error:
+            raise _unwritable(error) from error
+
+
+def _unwritable(error: OSError | RuntimeError) -> ValidationError:
+    """Error that says why; netCDF and HDF5 report a full disk as RuntimeError too."""
+    return ValidationError(f"comparison.nc cannot be written: {getattr(error, 'strerror', None) or error}")

@@ -4,6 +4,7 @@ import json
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from solver.kept import DamagedEntryError, KeptArrays
 from solver.kernel_cache import cache_folders
 from validation.errors import ValidationError
+from validation.runs.packed import ENCODING, Packed, kept_with, packed_of
 
 FOLDER_VARIABLE = "ARTERIAL_ROM_CACHE"  # environment: the folder to use instead
 LIMIT = 2 * 1024**3  # bytes
@@ -27,7 +29,7 @@ class Entry:
     Attributes
     ----------
     datasets : dict of str to xarray.Dataset
-        Numeric arrays with coordinates and attributes that JSON can hold.
+        Numeric arrays with coordinates and attributes that JSON can hold; those that are packed come back so.
     facts : dict
         What JSON can hold.
     """
@@ -114,27 +116,53 @@ def _arrays(entry: Entry) -> dict[str, NDArray[Any]]:
     """Arrays of an entry by name, with a header that tells what they are."""
     arrays: dict[str, NDArray[Any]] = {}
     layout: dict[str, Any] = {}
+    packed: dict[str, Any] = {}
     for name, dataset in entry.datasets.items():
         layout[name] = {
             "coords": {str(n): _described(v) for n, v in dataset.coords.items()},
             "data_vars": {str(n): _described(v) for n, v in dataset.data_vars.items()},
         }
-        arrays |= {f"{name}/{n}": v.to_numpy() for n, v in dataset.variables.items()}
-    return {HEADER: np.array(json.dumps({"layout": layout, "facts": entry.facts}))} | arrays
+        for n, v in dataset.variables.items():
+            key = f"{name}/{n}"
+            if not isinstance(v.data, Packed):
+                arrays[key] = v.to_numpy()
+            if isinstance(v.data, Packed) or ENCODING in v.encoding:
+                own = packed_of(dataset[n])
+                sizes = [len(block) for block in own.blocks]
+                packed[key] = {"shape": own.shape, "dtype": own.dtype.str, "sizes": sizes}
+                arrays[f"{key}/{ENCODING}"] = np.frombuffer(b"".join(own.blocks), np.uint8)
+    header = json.dumps({"layout": layout, ENCODING: packed, "facts": entry.facts})
+    return {HEADER: np.array(header)} | arrays
 
 
 def _entry(arrays: Mapping[str, NDArray[Any]]) -> Entry:
     header = json.loads(str(arrays[HEADER]))
-    datasets = {name: _dataset(name, parts, arrays) for name, parts in header["layout"].items()}
+    packed = {key: _packed(about, arrays[f"{key}/{ENCODING}"]) for key, about in header[ENCODING].items()}
+    datasets = {name: _dataset(name, parts, arrays, packed) for name, parts in header["layout"].items()}
     return Entry(datasets, header["facts"])
 
 
-def _dataset(name: str, parts: Mapping[str, Any], stored: Mapping[str, NDArray[Any]]) -> xr.Dataset:
+def _packed(about: Mapping[str, Any], octets: NDArray[Any]) -> Packed:
+    ends = np.cumsum([0, *about["sizes"]])
+    blocks = tuple(octets[first:last].tobytes() for first, last in pairwise(ends))
+    return Packed(tuple(about["shape"]), np.dtype(about["dtype"]), blocks)
+
+
+def _dataset(
+    name: str,
+    parts: Mapping[str, Any],
+    stored: Mapping[str, NDArray[Any]],
+    packed: Mapping[str, Packed],
+) -> xr.Dataset:
     variables = {
         kind: {
-            n: (tuple(about["dims"]), stored[f"{name}/{n}"], about["attrs"])
+            n: (tuple(about["dims"]), stored.get(f"{name}/{n}", packed.get(f"{name}/{n}")), about["attrs"])
             for n, about in parts[kind].items()
         }
         for kind in ("coords", "data_vars")
     }
-    return xr.Dataset(variables["data_vars"], coords=variables["coords"])
+    found = xr.Dataset(variables["data_vars"], coords=variables["coords"])
+    for n in parts["data_vars"]:
+        if f"{name}/{n}" in packed:
+            found[n] = kept_with(found[n], packed[f"{name}/{n}"])
+    return found

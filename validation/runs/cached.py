@@ -13,6 +13,7 @@ from validation.reference.direction import inflow_sign
 from validation.reference.kind import Progress, Reference, ReferenceKind
 from validation.runs.cache import Cache, Entry
 from validation.runs.keys import key_of
+from validation.runs.packed import with_packed
 from validation.runs.provenance import shown_path
 from validation.runs.reduced_model import ReducedModelRun, compile_kernels, run_reduced_model
 
@@ -80,7 +81,7 @@ def cached_reference(
         )
 
     def packed(found: Reference) -> Entry:
-        datasets = {"fields": found.fields, "checks": found.checks}
+        datasets = {"fields": with_packed(found.fields), "checks": found.checks}
         facts = {
             "description": found.description,
             "notes": list(found.notes),
@@ -101,9 +102,15 @@ def cached_reference(
 
 
 def cached_rom(
-    store: Cache | None, case: Case, alignment: Alignment, rays: Rays, progress: Progress, remark: Remark
+    store: Cache | None,
+    case: Case,
+    alignment: Alignment,
+    rays: Rays,
+    progress: Progress,
+    remark: Remark,
+    along_rays: bool = True,
 ) -> ReducedModelRun:
-    """Run the reduced model, or take its run from the cache."""
+    """Run the reduced model, or take its run from the cache; with fields along rays where asked for."""
 
     def computed() -> ReducedModelRun:
         compile_kernels(case)
@@ -119,12 +126,13 @@ def cached_rom(
         )
 
     def packed(found: ReducedModelRun) -> Entry:
-        datasets = {"fields": found.fields, "wall": found.stiffness.to_dataset(name="wall_stiffness")}
+        fields = with_packed(found.fields) if along_rays else found.fields.drop_dims("y")
+        datasets = {"fields": fields, "wall": found.stiffness.to_dataset(name="wall_stiffness")}
         return Entry(datasets, {"cycle_change": found.cycle_change, "description": found.description})
 
     return _cached(
         store,
-        lambda: rom_key(case, alignment, rays),
+        lambda: rom_key(case, alignment, rays) + ("" if along_rays else "-cells"),
         computed,
         packed,
         unpacked,
@@ -166,12 +174,12 @@ def _cached(
             return found
     except (ValidationError, KeyError) as error:
         remark(f"cache: {error}; computed anew")
-    found = _timed(compute)
+    kept = packed(_timed(compute))
     try:
-        store.put(name, packed(found))
+        store.put(name, kept)
     except ValidationError as error:
         remark(f"cache: {error}; the result is not kept")
-    return found
+    return unpacked(kept)
 
 
 def _timed(compute: Callable[[], T]) -> T:

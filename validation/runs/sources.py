@@ -39,6 +39,7 @@ CELLS = (
     "validation/runs/cache.py",
     "validation/runs/cached.py",
     "validation/runs/keys.py",
+    "validation/runs/packed.py",
 )
 REDUCED_MODEL = (
     *CASE,

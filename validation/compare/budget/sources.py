@@ -120,7 +120,7 @@ def sources_of(
     if not (case.compare.matched_inflow or coarser):
         return Sources(None, numerical, None, tuple(notes))
     driven = with_inflow_of(case, reference)
-    matched = cached_rom(store, driven, variant.alignment, variant.points, progress, remark)
+    matched = cached_rom(store, driven, variant.alignment, variant.points, progress, remark, along_rays=False)
     mesh: Mapping[str, Estimate] | None = None
     warnings: tuple[str, ...] = ()
     if coarser:
