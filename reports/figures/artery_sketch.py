@@ -117,14 +117,14 @@ def _calcification(
     across = tube.across(borders[..., 0])
     up = tube.up(_height(borders[..., 1] + seen_from, seen_from))
     lines = [np.pad(v, ((0, 0), (0, 1)), constant_values=np.nan).ravel() for v in (across, up)]
-    axis.plot(*lines, color=QUIET, linewidth=0.7, solid_capstyle="projecting")
+    sheet.line(axis, *lines, color=QUIET, linewidth=0.7, solid_capstyle="projecting")
 
 
 def _wall(axis: Axes, tube: Panel, seen_from: float) -> None:
     """Draw the wall and the ends, what flows where, and the angles of what is seen."""
     right, middle = tube.left + tube.width, tube.bottom + tube.height / 2
     for up in (tube.bottom, tube.top):
-        axis.plot([tube.left, right], [up, up], color="#000000", linewidth=1.2)
+        sheet.line(axis, [tube.left, right], [up, up], color="#000000", linewidth=1.2)
     for across in (tube.left, right):
         end = Ellipse((across, middle), _ROUND, tube.height, facecolor="#ffffff", edgecolor="#000000")
         end.set(linewidth=0.8, zorder=1.5)

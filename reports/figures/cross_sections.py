@@ -190,5 +190,5 @@ def _legend(
 def _length(axis: Axes, panel: sheet.Panel) -> None:
     """Draw a bar of one millimetre below the first section."""
     ends = panel.across(np.array([-0.5, 0.5])) + 0.1
-    axis.plot(ends, [0.12, 0.12], color="#000000", linewidth=1.0)
+    sheet.line(axis, ends, [0.12, 0.12], color="#000000", linewidth=1.0)
     axis.text(float(ends[1]) + 0.05, 0.12, "1 mm; $φ$ = 0 on the right, 90° above", va="center", fontsize=6.5)

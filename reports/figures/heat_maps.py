@@ -200,7 +200,9 @@ def _border(axis: Axes, panel: Panel, borders: Floats, halo: float, width: float
     x, y = (np.pad(borders[..., k], ((0, 0), (0, 1)), constant_values=np.nan).ravel() for k in (0, 1))
     for colour, size in (("#ffffff", halo), ("#000000", width)):
         if size and x.size:
-            axis.plot(panel.across(x), panel.up(y), color=colour, linewidth=size, solid_capstyle="projecting")
+            sheet.line(
+                axis, panel.across(x), panel.up(y), color=colour, linewidth=size, solid_capstyle="projecting"
+            )
 
 
 def _write(axis: Axes, panel: Panel, words: str) -> None:

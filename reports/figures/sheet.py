@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
@@ -104,13 +105,19 @@ def in_a_row(
     return [Panel(across[0] + k * (width + gap), place[0], width, place[1], x, y) for k in range(count)]
 
 
+def line(axis: Axes, x: Floats | Sequence[float], y: Floats | Sequence[float], **style: Any) -> None:
+    """Draw one line in inches: what ``Axes.plot`` does, without its search for units and limits."""
+    axis.add_artist(Line2D(x, y, **style))
+
+
 def curves(
     axis: Axes, panels: Sequence[Panel], x: Sequence[Floats], y: Sequence[Floats], **style: Any
 ) -> None:
     """Draw a curve in each panel as one line with gaps; NaN is no point of it."""
     gap = np.full(1, np.nan)
     pieces = list(zip(panels, x, y, strict=True))
-    axis.plot(
+    line(
+        axis,
         np.concatenate([part for panel, at, _ in pieces for part in (panel.across(at), gap)]),
         np.concatenate([part for panel, _, to in pieces for part in (panel.up(to), gap)]),
         **style,
@@ -148,7 +155,7 @@ def reference_points(
 def segments(axis: Axes, lines: Sequence[Sequence[tuple[float, float]]], **style: Any) -> None:
     """Draw lines through points (inches), each at least two, as one artist."""
     points = np.array([point for line in lines for point in (*line, (np.nan, np.nan))]).reshape(-1, 2)
-    axis.plot(*points.T, **{"solid_capstyle": "projecting", **style})
+    line(axis, *points.T, **{"solid_capstyle": "projecting", **style})
 
 
 def frames(axis: Axes, panels: Sequence[Panel], closed: bool = False) -> None:
@@ -295,9 +302,11 @@ def legend(axis: Axes, keys: Sequence[Key], left: float, up: float) -> None:
             box.set(linewidth=0.5)
             axis.add_patch(box)
         elif key.dashes is None:
-            axis.plot([left + _KEY / 2], [up], "o", color=key.colour, markersize=3.0, markeredgewidth=0)
+            line(
+                axis, [left + _KEY / 2], [up], color=key.colour, marker="o", markersize=3.0, markeredgewidth=0
+            )
         else:
-            axis.plot([left, left + _KEY], [up, up], color=key.colour, linestyle=key.dashes, linewidth=1.3)
+            line(axis, [left, left + _KEY], [up, up], color=key.colour, linestyle=key.dashes, linewidth=1.3)
         left += (0.18 if key.fill else _KEY) + 0.05
         axis.text(left, up, key.words, ha="left", va="center", fontsize=7.0 * small, parse_math=False)
         left += small * (_LETTER * len(key.words) + 0.14)

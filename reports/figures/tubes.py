@@ -174,7 +174,7 @@ def _outline(axis: Axes, x: Floats, phi: Floats, tube: Tube, eye: _Eye) -> None:
     visible = np.cos(middle) * eye.view[2, 1] + np.sin(middle) * eye.view[2, 2] > 0
     ends = np.pad(at[visible, :, :2], ((0, 0), (0, 1), (0, 0)), constant_values=np.nan).reshape(-1, 2)
     for colour, width in (("#ffffff", 1.6), ("#000000", 0.7)):
-        axis.plot(*ends.T, color=colour, linewidth=width, solid_capstyle="projecting")
+        sheet.line(axis, *ends.T, color=colour, linewidth=width, solid_capstyle="projecting")
 
 
 def _at_corners(radius: Floats) -> Floats:
@@ -189,7 +189,7 @@ def _length(axis: Axes, start: float, eye: _Eye) -> None:
     """Draw a bar along the axis of the artery, in millimetres as drawn, below the lumens."""
     left = float(eye.project(np.array([start, 0.0, 0.0]))[0])
     right = float(eye.project(np.array([start + 5.0, 0.0, 0.0]))[0])
-    axis.plot([left, right], [_BOTTOM / 2] * 2, color="#000000", linewidth=1.0)
+    sheet.line(axis, [left, right], [_BOTTOM / 2] * 2, color="#000000", linewidth=1.0)
     axis.text(
         right + 0.06, _BOTTOM / 2, "5 mm along the axis; flow from left to right", va="center", fontsize=6.5
     )
