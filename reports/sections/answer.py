@@ -112,10 +112,8 @@ def section(comparison: Comparison) -> Blocks:
         blocks.append(Paragraph(sentence))
     if warnings:
         blocks.append(Warnings(warnings))
-    table = heat_table(comparison)
-    if table:
-        blocks.append(table)
     blocks += [trust_figure(comparison)] if has_trust_map(comparison) else []
+    blocks += [table] if (table := heat_table(comparison)) else []
     cost = cost_sentence(comparison)
     if cost:
         blocks.append(Paragraph(cost))

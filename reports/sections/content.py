@@ -13,10 +13,16 @@ def identity(comparison: Comparison) -> str:
     return " · ".join(
         (
             comparison.case,
-            f"commit {commit[:9]}" if commit else "no commit",
+            _commit(commit),
             comparison.provenance.created[:10],
         )
     )
+
+
+def _commit(commit: str | None) -> str:
+    if not commit:
+        return "no commit"
+    return f"commit {commit[:9]}" + (" with local changes" if commit.endswith("+") else "")
 
 
 def _models(comparison: Comparison) -> str:

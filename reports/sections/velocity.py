@@ -20,7 +20,6 @@ from reports.wording.numbers import SPACE, listed, signed, with_unit
 from reports.wording.words import instant, row_heading
 
 _FIELD = FIELDS["axial_velocity"]
-_RADIUS = "r/R"
 
 
 def _values(variant: str, state: int, i: int, j: int, view: Comparison, model: str) -> Floats:
@@ -62,17 +61,20 @@ def figures(comparison: Comparison, variants: list[str]) -> list[Figure]:
     j = shown_row(comparison)
     when = instant(*comparison.times[0])
     farthest = _farthest(comparison, variants, 0)
+    where = row_heading(comparison, j)
+    caption = (
+        f"Axial velocity from the axis (r/R{SPACE}={SPACE}0) to the wall at {where}, at {when}. "
+        f"Farthest from 3D at all probes: {farthest}."
+    )
+    alt = (
+        f"Velocity profiles of all models at {when}, a row of panels for each of {listed(variants)}. "
+        f"Farthest from 3D: {farthest}."
+    )
     return [
         grid_figure(
             comparison,
-            (
-                f"profiles-{columns[0]}",
-                f"Axial velocity from the axis ({_RADIUS}{SPACE}={SPACE}0) to the wall at "
-                f"{row_heading(comparison, j)}, at {when}. Farthest from 3D at all probes: {farthest}.",
-                f"Velocity profiles of all models at {when}, a row of panels for each of {listed(variants)}. "
-                f"Farthest from 3D: {farthest}.",
-            ),
-            (f"{_RADIUS} (–)", comparison.profiles["y"].values.astype(float)),
+            (f"profiles-{columns[0]}", caption, alt),
+            ("r/R (–)", comparison.profiles["y"].values.astype(float)),
             [probe_words(comparison, i) for i in columns],
             [profile_row(comparison, name, 0, j, name, columns) for name in variants],
         )
