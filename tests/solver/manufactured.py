@@ -131,7 +131,8 @@ def curvature(function, phi, step=1e-3):
 def damping(solution, t, x, phi):
     """h − 2(γ+2)(μ/ρ)/A; −(2/γ³)(∂_φγ)² + ∂²_φγ/γ² is −∂²_φ(1/γ), and 1/γ = D/(2u) − ½."""
     d, nu = axis_velocity(solution, t, x), solution.viscosity / DENSITY
-    area, gamma = solution.area(t, x, phi), exponent(solution, t, x, phi)
+    area, u = solution.area(t, x, phi), velocity(solution, t, x, phi)
+    gamma = 2 * u / (d - u)
     slope = solution.area(t, x, phi + 1j * TINY).imag / TINY
     bend = curvature(lambda at: solution.area(t, x, at), phi)
     inverse_bend = curvature(lambda at: 0.5 * d / velocity(solution, t, x, at), phi)

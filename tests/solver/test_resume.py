@@ -77,18 +77,25 @@ def assert_same_bytes(one, other):
         }
 
 
+@pytest.fixture(scope="module")
+def wholes(tmp_path_factory):
+    """Folder of runs that were not interrupted, for all the instants at which others were."""
+    return tmp_path_factory.mktemp("wholes")
+
+
 @pytest.mark.parametrize("control", ["", " error_tolerance: 1e-4,"])
 @pytest.mark.parametrize("outlet", list(BOUNDARIES))
 @pytest.mark.parametrize("after", [3, 11, 20])
-def test_interrupted_and_resumed(run, case_file, outlet, control, after):
+def test_interrupted_and_resumed(run, case_file, wholes, outlet, control, after):
     changed(case_file, BOUNDARIES["resistance"], BOUNDARIES[outlet])
     changed(case_file, "closure: average,", f"closure: average,{control}")
     variant = "patch"
     if outlet == "non_reflecting":  # no flow is steady in front of it, and rows that start from rest part
         variant = "healthy"
         changed(case_file, "closure: average,", "closure: average, start: rest,")
-    whole, parts = case_file.with_name("whole.nc"), case_file.with_name("parts.nc")
-    assert run(case_file, "--variant", variant, "--output", whole) == (0, "")
+    whole, parts = wholes / f"{outlet}, {bool(control)}.nc", case_file.with_name("parts.nc")
+    if not whole.exists():
+        assert run(case_file, "--variant", variant, "--output", whole) == (0, "")
     status, _ = run(case_file, "--variant", variant, "--output", parts, after=after)
     assert status == 130
     assert not parts.exists()
@@ -196,7 +203,7 @@ def test_a_new_run_does_not_take_up_old_pieces(run, case_file):
 
 def test_a_killed_run_goes_on(case_file):
     """SIGKILL leaves no time to tidy up; a half-written piece is not taken up."""
-    changed(case_file, "cycles: 2", "cycles: 60")
+    changed(case_file, "cycles: 2", "cycles: 20")
     outputs = [case_file.with_name(name) for name in ("whole.nc", "killed.nc")]
 
     def arguments(output):
@@ -208,7 +215,7 @@ def test_a_killed_run_goes_on(case_file):
     killed.kill()
     assert killed.wait() == -signal.SIGKILL
     assert not outputs[1].exists()
-    (pieces_folder(outputs[1]) / "00000599.part").write_bytes(b"half a piece")
+    (pieces_folder(outputs[1]) / "00000199.part").write_bytes(b"half a piece")
     subprocess.run(arguments(outputs[0]), cwd=ROOT, check=True, capture_output=True)  # noqa: S603
     resumed = [*arguments(outputs[1]), "--resume"]
     subprocess.run(resumed, cwd=ROOT, check=True, capture_output=True)  # noqa: S603

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from kept_entry import entry
 from small_case import ROOT, bands, small_case, written
 from tube_plot import write_tube
 from tubes import Tube
@@ -21,22 +22,12 @@ from validation.errors import ValidationError
 from validation.mapping.rays import rays
 from validation.reference.alignment import align
 from validation.runs import cached as cached_runs
-from validation.runs.cache import Cache, Entry, open_cache
+from validation.runs.cache import Cache, open_cache
 from validation.runs.cached import reference_key, rom_key
 from validation.runs.keys import canonical
 
 GENEROUS = ("radius", "rms_error", "50 %")
 SHORT = Tube(sectors=8, rings=2, stacks=6, layers=1)
-
-
-def entry(size: int = 8) -> Entry:
-    values = np.random.default_rng(1).normal(size=(size, 3))
-    values[0, 0] = np.inf
-    data = xr.Dataset(
-        {"pressure": (("time", "x"), values, {"units": "Pa"}), "single": ("x", np.float32([1, 2, 3]))},
-        coords={"time": np.arange(size) * 0.1, "x": ("x", [0.5, 1.5, 2.5], {"units": "m"})},
-    )
-    return Entry({"fields": data}, {"notes": ["äöφ"], "change": 0.1})
 
 
 @pytest.fixture
@@ -112,7 +103,7 @@ class TestStorage:
     def test_two_processes_share_a_folder(self, tmp_path):
         code = (
             "import sys; sys.path[:0] = ['tests/validation', '.']\n"
-            "from pathlib import Path; from test_cache import entry\n"
+            "from pathlib import Path; from kept_entry import entry\n"
             "from validation.runs.cache import Cache\n"
             f"store = Cache(Path({str(tmp_path)!r}), limit=12000)\n"
             "for n in range(60):\n"

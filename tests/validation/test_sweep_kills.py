@@ -23,7 +23,7 @@ from validation.sweep.stream import computed
 
 pytestmark = pytest.mark.skipif(not Path("/proc").is_dir(), reason="finds processes in /proc")
 
-SAMPLES = 60
+SAMPLES = 36
 PARAMETERS = {"calcification.youngs_modulus": {"start": "1 MPa", "stop": "20 MPa", "count": SAMPLES}}
 SOLVER = {"n_x": 24, "n_phi": 16, "time_step": "2 ms"}
 PATIENCE = 60.0  # s
@@ -96,6 +96,7 @@ def test_a_worker_that_is_killed_loses_and_doubles_nothing(study, expected):
     same(study, expected)
 
 
+@pytest.mark.long  # the interrupt below leaves the same parts, from which the same command goes on
 def test_a_client_that_is_killed_goes_on_where_it_was(study, expected):
     process = started(study)
     wait_for(lambda: len(parts(study)) >= 2, process)
@@ -125,9 +126,11 @@ def test_an_interrupt_keeps_what_is_done_and_leaves_no_process(study, expected, 
     assert err == f"interrupted; what is done is kept in {folder}, and the same command goes on\n"
     assert '"state": "interrupted"' in (folder / "study.json").read_text(encoding="utf-8")
     wait_for(lambda: not any(alive(pid) for pid in running))
-    assert 0 < len(parts(study)) < SAMPLES // 2
+    kept = {part: part.stat().st_mtime_ns for part in parts(study)}
+    assert 0 < len(kept) < SAMPLES // 2
     assert main([str(study), "--output", str(folder), "--scheduler", "threads"]) == 0
     same(study, expected)
+    assert all(part.stat().st_mtime_ns == time for part, time in kept.items())
 
 
 def test_a_scheduler_that_is_there_already(study, expected, capsys):
