@@ -21,14 +21,24 @@ def labelled(variant: str, model: str, models: Collection[str]) -> str:
 
 
 def models_of(root: Node, problems: list[Problem]) -> dict[str, Node]:
-    """Return the overrides by reduced model; one that changes nothing where the file states no models."""
+    """Return the overrides by reduced model; one that changes nothing where the file states no models.
+
+    What a model may not state is left out, and a problem.
+    """
     models = overrides_of(root, "models", ROM, OF_A_MODEL, problems)
     for name, override in models.items():
         problems += _name_problems(name, override, models)
-        for key, node in override.section.items():
-            if key not in OF_A_MODEL:
-                problems.append(Problem(node.line, node.key, unknown_key(key, OF_A_MODEL)))
-    return models
+        problems += [
+            Problem(node.line, node.key, unknown_key(key, OF_A_MODEL))
+            for key, node in override.section.items()
+            if key not in OF_A_MODEL
+        ]
+    return {name: _allowed(override) for name, override in models.items()}
+
+
+def _allowed(override: Node) -> Node:
+    kept = {key: node for key, node in override.section.items() if key in OF_A_MODEL}
+    return Node(kept, override.line, override.key)
 
 
 def _name_problems(name: str, override: Node, models: Collection[str]) -> list[Problem]:
@@ -51,7 +61,7 @@ def cells_apart(cases: Mapping[ModelVariant, Case], stated: Mapping[ModelVariant
         By model and variant; those of the first model come first.
     """
     problems = []
-    first = next(iter(stated))[0]
+    first = next((model for model, _ in stated), "")
     for (model, variant), case in cases.items():
         other = cases.get((first, variant), case).solver
         for key in ALIKE:

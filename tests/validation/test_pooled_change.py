@@ -24,8 +24,8 @@ def changed(models, rom=1.0, reference=1.0, quantity="radius"):
 
 
 def rows(healthy, calcified):
-    variants = {"none": without_rays(healthy), "local": without_rays(calcified)}
-    return {row.quantity: row for row in pooled_change_rows(variants, BASELINES)}
+    compared = {("none", "rom"): without_rays(healthy), ("local", "rom"): without_rays(calcified)}
+    return {row.quantity: row for row in pooled_change_rows(compared, BASELINES)}
 
 
 def test_equal_changes_have_no_error():
@@ -58,8 +58,19 @@ def test_plug_flow_has_no_change():
 
 def test_a_baseline_has_no_change():
     models = without_rays(equal_models())
-    assert list(pooled_change_rows({"none": models}, BASELINES)) == []
-    assert list(pooled_change_rows({"local": models}, BASELINES)) == []
+    assert list(pooled_change_rows({("none", "rom"): models}, BASELINES)) == []
+    assert list(pooled_change_rows({("local", "rom"): models}, BASELINES)) == []
+
+
+def test_a_model_changes_from_its_own_baseline():
+    stiff = replace(changed(equal_models(), 0.5, 0.9), model="stiff")
+    compared = {(each.variant, each.model): without_rays(each) for each in (equal_models(), stiff)}
+    assert list(pooled_change_rows(compared, BASELINES)) == []
+    own = replace(changed(equal_models(), 0.9, 0.9), variant="none", model="stiff")
+    compared["none", "stiff"] = without_rays(own)
+    (row,) = (row for row in pooled_change_rows(compared, BASELINES) if row.quantity == "radius")
+    size = np.sqrt(np.mean(equal_models().rom["radius"].to_numpy() ** 2))
+    assert (row.model, row.rom, row.reference) == ("stiff", pytest.approx(0.4 * size), 0.0)
 
 
 def test_assumptions_are_tabulated_where_results_are():

@@ -20,6 +20,7 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("case", type=Path, metavar="CASE.yaml")
     parser.add_argument("--variant", action="append", metavar="NAME", help="only these; may be repeated")
+    parser.add_argument("--model", metavar="NAME", help="one of the case file's models (default: the first)")
     parser.add_argument(
         "--output", type=Path, metavar="DIR", help="folder for results, default results/NAME-convergence"
     )
@@ -45,7 +46,7 @@ def _run(chosen: argparse.Namespace) -> int:
     folder = chosen.output or Path("results") / f"{file.name}-convergence"
     with writing(folder, ValidationError):
         folder.mkdir(parents=True, exist_ok=True)
-        found = study(file, chosen_variants(file, chosen.variant))
+        found = study(file.model(chosen.model), chosen_variants(file, chosen.variant))
         records = [number.record() for number in found]
         write_json(folder / "convergence.json", records)
         write_text(folder / "convergence.csv", pd.DataFrame(records).to_csv(index=False))

@@ -1,6 +1,6 @@
 """Variants of a case on three grids and with three time steps: their runs, as a table and as a figure."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +9,7 @@ from rich.table import Table
 
 from cases.fields import FIELDS
 from cases.reading.case_file import CaseFile
+from cases.sections.case import Case
 from cases.shell.terminal import progress
 from reports.figures.plots import convergence_plots
 from validation.converge.refinement import STUDIES, Refined, levels, refined
@@ -31,7 +32,7 @@ def chosen_variants(file: CaseFile, names: list[str] | None) -> list[str]:
     return names or list(file.variants)
 
 
-def study(file: CaseFile, names: list[str]) -> list[Refined]:
+def study(cases: Mapping[str, Case], names: list[str]) -> list[Refined]:
     """Refine grid and time step of some variants; progress is shown on a terminal.
 
     Raises
@@ -41,13 +42,13 @@ def study(file: CaseFile, names: list[str]) -> list[Refined]:
     """
     runs = [(name, what) for name in names for what in STUDIES]
     for name, what in runs:
-        levels(file.variants[name], what)
+        levels(cases[name], what)
     found = []
     with progress() as display:
         task = display.add_task("", total=len(runs))
         for name, what in runs:
             display.update(task, description=f"{name}: {what}")
-            found += refined(name, file.variants[name], what)
+            found += refined(name, cases[name], what)
             display.advance(task)
     return found
 
