@@ -11,7 +11,7 @@ from reports.figures.agreement import Agreement, agreement
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, Need, declared
 from reports.sections.overview import limit_of
-from reports.sections.parts.models import headed
+from reports.sections.parts.models import columns_of, headed
 from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import SPACE, listed
 
@@ -65,7 +65,7 @@ def _figure(comparison: Comparison, model: str, quantities: list[str]) -> Figure
         f"mean below (after Bland and Altman 1986) with bias and ±{SPACE}1.96 standard deviations: {said}.",
         f"Two-dimensional histograms of {named} over 3D and of their difference over their mean for "
         f"{listed(comparison.variants)}: {said}.",
-        partial(agreement, [comparison.titles[name] for name in comparison.variants], rows, named),
+        partial(agreement, columns_of(comparison, comparison.variants), rows, named),
         comma_separated(
             ("quantity", "variant", "bias_percent", "spread_percent"),
             [(quantity, *each) for quantity, of in spreads.items() for each in of],

@@ -94,12 +94,10 @@ def _narrowest(comparison: Comparison, state: int) -> str:
     return "; ".join(said)
 
 
-SHAPE = Need(
-    has_shape, "The reference does not state the radius of all cells, so there is no 3D artery to show."
-)
+SHAPE = Need(has_shape)
 
 
-@declared("artery", "3D view", instants("the artery"), SHAPE)
+@declared("artery", "3D view", instants(), SHAPE)
 def section(comparison: Comparison) -> Blocks:
     """Return a still, and a picture to be turned."""
     name, t_s = comparison.times[0]

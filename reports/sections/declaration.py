@@ -81,9 +81,9 @@ def of_each_model(blocks: Callable[[Comparison], Blocks]) -> Callable[[Compariso
     return composed
 
 
-def instants(what: str) -> Need:
+def instants() -> Need:
     """Need of an instant that the case names."""
-    return Need(lambda comparison: bool(comparison.times), f"The case names no instant to show {what} at.")
+    return Need(lambda comparison: bool(comparison.times))
 
 
 def result_file(name: str) -> Need:

@@ -12,8 +12,9 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.lumen import cells_table
-from reports.sections.parts.models import headed
+from reports.sections.parts.models import columns_of, headed
 from reports.sections.parts.places import place_words
+from reports.sections.parts.stated import mostly
 from reports.wording.numbers import ABSENT, SPACE, fixed, listed
 from reports.wording.words import place
 
@@ -171,7 +172,7 @@ def _figure(comparison: Comparison) -> Figure:
             dominance_map,
             1e3 * fields["x"].values,
             np.degrees(fields["phi"].values),
-            [comparison.titles[name] for name in comparison.variants],
+            columns_of(comparison, comparison.variants),
             lines,
             fields["calcified"].values > 0,
             label="$|v_r|/v_x$",
@@ -191,7 +192,8 @@ def _figure(comparison: Comparison) -> Figure:
 def section(comparison: Comparison) -> Blocks:
     """Return how small the neglected velocities are, and where."""
     said = (_dominance_sentence(comparison), _implied_sentence(comparison))
-    drawn = f"reference_{RADIAL}" in comparison.fields and comparison.n_phi > 1
+    name = f"reference_{RADIAL}"
+    drawn = name in comparison.fields and comparison.n_phi > 1 and mostly(comparison.fields[name].values)
     return (Paragraph(" ".join(filter(None, said))), *((_figure(comparison),) if drawn else ()))
 
 

@@ -12,7 +12,7 @@ from reports.figures.heat_maps import MapRow, Maps, heat_maps
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.parts.lumen import cells_table
-from reports.sections.parts.models import headed
+from reports.sections.parts.models import columns_of, headed
 from reports.sections.parts.page_data import digits, pack
 from reports.sections.parts.places import place_words
 from reports.sections.parts.stated import mostly, stated_variants
@@ -74,7 +74,7 @@ def _figure(comparison: Comparison, variants: Sequence[str]) -> Figure:
             heat_maps,
             1e3 * shown["x"].values,
             np.degrees(shown["phi"].values),
-            [comparison.titles[name] for name in variants],
+            columns_of(comparison, variants),
             [MapRow(label, (Maps(tuple(of), "γ", limits=limits),)) for label, of in lines],
             shown["calcified"].values > 0,
             "framed: calcified",
@@ -90,7 +90,7 @@ def _figure(comparison: Comparison, variants: Sequence[str]) -> Figure:
     )
 
 
-@declared("exponents", "Closest γ", instants("maps"))
+@declared("exponents", "Closest γ", instants())
 def section(comparison: Comparison) -> Blocks:
     """Return the closest profile exponents."""
     records = comparison.variants
@@ -110,20 +110,17 @@ def section(comparison: Comparison) -> Blocks:
     shown, told = stated_variants(
         comparison, lambda name: mostly(stated.sel(variant=name).values), "profiles to fit an exponent to"
     )
+    if not shown:
+        return ()
     any_cell = Interactive(
         "exponents-anywhere",
         "errors",
         "The error over γ, with its values",
         "Of the shown cell and instant nearest to the chosen ones; point at the curve for its values.",
-        {"errors": _error_data(comparison)} if shown else {},
+        {"errors": _error_data(comparison)},
     )
-    return (
-        opening,
-        *((two_modes,) if with_modes else ()),
-        *told,
-        *((any_cell,) if shown else ()),
-        *((_figure(comparison, [name for _, name in shown]),) if shown else ()),
-    )
+    figure = _figure(comparison, [name for _, name in shown])
+    return opening, *((two_modes,) if with_modes else ()), *told, any_cell, figure
 
 
 def _error_data(comparison: Comparison) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.overview import limit_of
 from reports.sections.parts.lumen import cells_table
-from reports.sections.parts.models import headed
+from reports.sections.parts.models import columns_of, headed
 from reports.sections.parts.places import place_words
 from reports.sections.parts.stated import mostly, stated_variants
 from reports.wording.numbers import SPACE, listed
@@ -85,7 +85,7 @@ def _figure(comparison: Comparison, variants: list[str]) -> Figure:
             limit_maps,
             1e3 * stated["x"].values,
             np.degrees(stated["phi"].values),
-            [comparison.titles[name] for name in variants],
+            columns_of(comparison, variants),
             _rows(comparison, quantities, variants),
             stated["calcified"].values > 0,
         ),
@@ -105,7 +105,7 @@ def _csv(comparison: Comparison, quantities: list[str], variants: list[str]) -> 
     )
 
 
-@declared("maps", "Where 2D differs", instants("maps"))
+@declared("maps", "Where 2D differs", instants())
 def section(comparison: Comparison) -> Blocks:
     """Return the maps of the differences at the first named instant, and all maps at any time."""
     first = comparison.maps.isel(time=0)
@@ -115,7 +115,7 @@ def section(comparison: Comparison) -> Blocks:
         "field over all cells",
     )
     if not shown:
-        return told
+        return ()
     slider = Interactive(
         "maps-anytime",
         "maps",

@@ -11,7 +11,7 @@ from reports.figures.artery_sketch import Place, artery_sketch
 from reports.figures.overview import Cycle, OverviewRow, overview
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
-from reports.sections.parts.models import headed
+from reports.sections.parts.models import columns_of, headed
 from reports.sections.parts.places import central_cell, in_calcification, place_words, shown_row
 from reports.sections.parts.stated import anywhere, left_out
 from reports.wording.csv_text import comma_separated
@@ -94,7 +94,7 @@ def section(comparison: Comparison) -> Blocks:
     if told:
         blocks.append(Paragraph(told))
     if not variants:
-        return tuple(blocks)
+        return ()
     rows = {name: _row(comparison, name, variants, place) for name in _QUANTITIES}
     where = place_words(comparison, *place) + in_calcification(comparison, *place)
     worst = _worst(comparison, rows, variants)
@@ -107,7 +107,7 @@ def section(comparison: Comparison) -> Blocks:
         partial(
             overview,
             comparison.fields["time"].values.astype(float),
-            [comparison.titles[name] for name in variants],
+            columns_of(comparison, variants),
             list(rows.values()),
             [headed(comparison, model) for model in comparison.models],
             marks=[t for _, t in comparison.times],

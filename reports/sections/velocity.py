@@ -91,12 +91,12 @@ def stated(comparison: Comparison) -> tuple[list[str], tuple[Paragraph, ...]]:
     return [name for _, name in shown], told
 
 
-@declared("profiles", "Velocity profiles", instants("profiles"))
+@declared("profiles", "Velocity profiles", instants())
 def section(comparison: Comparison) -> Blocks:
     """Return the profiles of each variant whose reference states them."""
     variants, told = stated(comparison)
     if not variants:
-        return told
+        return ()
     blocks: list[Block] = [
         Interactive(
             "profiles-anytime",

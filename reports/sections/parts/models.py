@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from reports.result.load import Comparison
 from reports.wording.numbers import listed
 
+_FEW = 3  # columns that leave room for words
+
 
 def model_words(comparison: Comparison, models: Iterable[str]) -> str:
     """E.g. "the row model", "the row and coupled models"; "the 2D model" where there is but one."""
@@ -12,6 +14,12 @@ def model_words(comparison: Comparison, models: Iterable[str]) -> str:
     if len(comparison.models) == 1:
         return "the 2D model"
     return f"the {listed(names)} model{'s' if len(names) > 1 else ''}"
+
+
+def columns_of(comparison: Comparison, variants: Iterable[str]) -> list[str]:
+    """Headings of a figure's columns: titles of a few variants, names of many."""
+    names = list(variants)
+    return [comparison.titles[name] for name in names] if len(names) <= _FEW else names
 
 
 def headed(comparison: Comparison, model: str) -> str:

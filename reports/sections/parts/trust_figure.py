@@ -10,7 +10,7 @@ from reports.figures.trust_map import TrustRow, trust_map
 from reports.result.load import Comparison
 from reports.sections.parts.limits import worst_over_limits
 from reports.sections.parts.lumen import cells_table
-from reports.sections.parts.models import headed
+from reports.sections.parts.models import columns_of, headed
 from reports.wording.numbers import listed, share
 
 
@@ -49,7 +49,7 @@ def trust_figure(comparison: Comparison) -> Figure:
             trust_map,
             1e3 * fields["x"].values,
             np.degrees(fields["phi"].values),
-            [comparison.titles[name] for name in comparison.variants],
+            columns_of(comparison, comparison.variants),
             [TrustRow(headed(comparison, model), tuple(maps)) for model, maps in ratios.items()],
             fields["calcified"].values > 0,
         ),
