@@ -12,9 +12,13 @@ from numba import njit
 
 MOST_OVERLAP_CHECKS = 256
 
-kernel = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-inlined_kernel = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
-summing_kernel = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc"})
+_shared = {"nogil": True, "error_model": "numpy"}
+_kept = {"cache": True, "no_cfunc_wrapper": True}  # nothing calls a kernel by its C address
+kernel = njit(**_shared, **_kept, fastmath={"contract"})
+inlined_kernel = njit(**_shared, **_kept, fastmath={"contract"}, forceinline=True)
+summing_kernel = njit(**_shared, **_kept, fastmath={"contract", "reassoc"})
+# written out in its caller: as a kernel of its own it would be optimised once more with all that it calls
+part_of_kernel = njit(**_shared, fastmath={"contract"}, inline="always")
 
 
 def compare_rows() -> None:

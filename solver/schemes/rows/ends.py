@@ -17,7 +17,7 @@ from solver.schemes.layout import (
     Workspace,
 )
 from solver.schemes.rows.profile import wrap
-from solver.schemes.vectorisation import inlined_kernel, kernel, summing_kernel
+from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel, summing_kernel
 from solver.schemes.walls import wall_area
 
 INLET, OUTLET = 0, 1
@@ -32,7 +32,7 @@ def section_flow(p: Parameters, flow: Floats) -> float:
     return p.sector * total
 
 
-@inlined_kernel
+@part_of_kernel
 def _end_wall(p: Parameters, ws: Workspace, end: int, pressure: Floats, area: Floats) -> tuple[int, int, int]:
     """Apply the wall law of the cells at an end to a row of pressures; status, i, j."""
     first = 0 if end == INLET else ws.mean_area.shape[0] - 1
@@ -41,7 +41,7 @@ def _end_wall(p: Parameters, ws: Workspace, end: int, pressure: Floats, area: Fl
     return wall_area(p, first, pressure.reshape(rows), area.reshape(rows), slope.reshape(rows))
 
 
-@inlined_kernel
+@part_of_kernel
 def old_end_areas(p: Parameters, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
     """Apply the wall law to the old end pressures; status, i, j."""
     status, i, j = _end_wall(p, ws, OUTLET, fields.outlet_pressure, ws.old_end_area[OUTLET])

@@ -53,7 +53,7 @@ from solver.schemes.rows.mass import (
 )
 from solver.schemes.rows.momentum import momentum_flux, predict
 from solver.schemes.rows.profile import closure_sources, fixed_sources
-from solver.schemes.vectorisation import inlined_kernel, kernel
+from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel
 from solver.schemes.walls import wall_area
 
 
@@ -65,7 +65,7 @@ def _mean(theta: float, old: Floats, new: Floats, mean: Floats) -> None:
             mean[i, j] = (1.0 - theta) * old[i, j] + theta * new[i, j]
 
 
-@inlined_kernel
+@part_of_kernel
 def means(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
     """Find A of the iterate, and the means of A, P and Q; the failure (status, i, j) if there is one."""
     status, i, j = wall_area(p, 0, ws.iterate_pressure, ws.iterate_area, ws.area_slope)
@@ -77,7 +77,7 @@ def means(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[in
     return end_areas(p, ws, s.theta)
 
 
-@inlined_kernel
+@part_of_kernel
 def _coefficients(p: Parameters, s: Stepping, ws: Workspace) -> tuple[int, int, int]:
     """α and Δt S on every face at the means; the failure (status, i, j) if there is one."""
     face_areas(ws.mean_area, ws.end_area, p.inlet_kind, p.mirrored, ws.face_area)
@@ -101,7 +101,7 @@ def _coefficients(p: Parameters, s: Stepping, ws: Workspace) -> tuple[int, int, 
     return status, min(f, ws.mean_area.shape[0] - 1), j
 
 
-@inlined_kernel
+@part_of_kernel
 def _momentum(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float) -> None:
     """G and κ of every face."""
     momentum_flux(ws.mean_flow, ws.mean_area, ws.alpha, ws.momentum_flux)
@@ -122,11 +122,12 @@ def _momentum(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_v
         half_cell(p, s, ws, fields, INLET)
     else:
         inlet_flow(p, ws, inlet_value, ws.explicit_flow[0])
-        ws.conductance[0, :] = 0.0
+        for j in range(ws.conductance.shape[1]):
+            ws.conductance[0, j] = 0.0
     half_cell(p, s, ws, fields, OUTLET)
 
 
-@inlined_kernel
+@part_of_kernel
 def _mass(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, values: tuple[float, float]) -> None:
     """P' − P in every cell and Q' on every face; ``values`` are what inlet and outlet prescribe."""
     inlet_value, outlet_offset = values
@@ -148,7 +149,7 @@ def _mass(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, values: tup
     substitute(c, slopes, ws.area_slope, ws.inverse_pivot, ws.conductance, ws.correction, ws.explicit_flow)
 
 
-@inlined_kernel
+@part_of_kernel
 def _sweep(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, values: tuple[float, float]
 ) -> tuple[int, int, int]:
@@ -182,25 +183,27 @@ def take(iterate: Floats, state: Floats) -> None:
             state[i, j] = new
 
 
-@inlined_kernel
+@part_of_kernel
 def begin_at_state(ws: Workspace, fields: Fields) -> None:
     """First iterate without a past: the state."""
     copy(fields.pressure, ws.iterate_pressure)
     copy(fields.flow, ws.iterate_flow)
-    ws.end_pressure[OUTLET, :] = fields.outlet_pressure
+    for j in range(fields.outlet_pressure.size):
+        ws.end_pressure[OUTLET, j] = fields.outlet_pressure[j]
 
 
-@inlined_kernel
+@part_of_kernel
 def start(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float
 ) -> tuple[int, int, int]:
     """Prepare what stays fixed during a step; status, i, j."""
     hold_area(fields.area, fields.flow, (1.0 - s.theta) * s.time_step / p.dx, ws.held_area)
-    ws.end_pressure[INLET, :] = inlet_value
+    for j in range(ws.end_pressure.shape[1]):
+        ws.end_pressure[INLET, j] = inlet_value
     return old_end_areas(p, ws, fields)
 
 
-@kernel
+@part_of_kernel
 def step(
     p: Parameters,
     s: Stepping,
@@ -260,7 +263,8 @@ def accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
         ws.exchanged[0] += sector * ((1.0 - s.theta) * flow[0, j] + s.theta * new_flow[0, j])
         ws.exchanged[1] += sector * ((1.0 - s.theta) * flow[n_x, j] + s.theta * new_flow[n_x, j])
     release_area(ws.held_area, new_flow, s.theta * s.time_step / p.dx, fields.area)
-    fields.inlet_pressure[:] = ws.end_pressure[INLET]
+    for j in range(flow.shape[1]):
+        fields.inlet_pressure[j] = ws.end_pressure[INLET, j]
     take(ws.end_pressure[OUTLET:], fields.outlet_pressure.reshape((1, flow.shape[1])))
     update_reservoir(p, fields, new_flow[n_x])
     take(new_flow, flow)
@@ -278,17 +282,16 @@ def advance(
     status, i, j, steps, sweeps : int
         As :func:`step`; steps completed and sweeps in all.
     """
-    total, extrapolated = 0, False
-    begin_at_state(ws, fields)
-    for n in range(inlet_values.size):
-        value, offset = inlet_values[n], outlet_offsets[n]
-        status, i, j, sweeps = step(p, s, ws, fields, value, offset)
-        total += sweeps
-        if status != OK and extrapolated:  # the past may be a jump, from which no state can be extrapolated
+    n, total, extrapolated = 0, 0, False
+    while n < inlet_values.size:
+        if not extrapolated:
             begin_at_state(ws, fields)
-            status, i, j, sweeps = step(p, s, ws, fields, value, offset)
-            total += sweeps
-        extrapolated = True
-        if status != OK:
+        status, i, j, sweeps = step(p, s, ws, fields, inlet_values[n], outlet_offsets[n])
+        total += sweeps
+        if status == OK:
+            n, extrapolated = n + 1, True
+        elif extrapolated:  # the past may be a jump, from which no state can be extrapolated
+            extrapolated = False
+        else:
             return status, i, j, n, total
-    return OK, 0, 0, inlet_values.size, total
+    return OK, 0, 0, n, total

@@ -46,7 +46,7 @@ from solver.schemes.sections.rows import (
     wall_areas,
     weighted,
 )
-from solver.schemes.vectorisation import inlined_kernel, kernel, summing_kernel
+from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel, summing_kernel
 
 LOWER, MIDDLE, UPPER = 0, 1, 2
 
@@ -84,8 +84,7 @@ def section_matrix(s: Stepping, p: Parameters, ws: Workspace, gap: float, answer
 
     ``gap`` and ``answer`` are the outlet's: δP = gap + answer δq.
     """
-    for k in range(3):
-        ws.section_matrix[k, :] = ws.matrix[k]
+    copied(ws.matrix, ws.section_matrix)
     lower, middle, upper = ws.section_matrix[LOWER], ws.section_matrix[MIDDLE], ws.section_matrix[UPPER]
     c, last = s.theta * s.time_step / p.dx, ws.mass.size
     pull = s.theta * s.time_step / (p.density * p.dx)
@@ -260,7 +259,7 @@ def extrapolate(new: Floats, older: Floats, oldest: Floats, guess: Floats, order
         past[k] = flat[k]
 
 
-@kernel
+@part_of_kernel
 def step(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, offset: float, order: int
 ) -> tuple[int, int, int, int]:
@@ -334,7 +333,8 @@ def accept(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     ws.exchanged[0] += volume * ws.flow_sum[0]
     ws.exchanged[1] += volume * ws.flow_sum[n_x]
     copied(ws.iterate_flow, fields.flow)
-    fields.pressure[:] = ws.iterate_pressure
+    for i in range(fields.pressure.size):
+        fields.pressure[i] = ws.iterate_pressure[i]
     update_reservoir(p, fields, 0.5 * p.dphi * float(ws.new_flow_sum[n_x]))
 
 
@@ -349,16 +349,14 @@ def advance(
     status, i, j, steps, sweeps : int
         As :func:`step`; steps completed and sweeps in all.
     """
-    total, known = 0, 0
-    for n in range(inlet_values.size):
-        value, offset = inlet_values[n], outlet_offsets[n]
-        status, i, j, sweeps = step(p, s, ws, fields, value, offset, min(known, 2))
+    n, total, known = 0, 0, 0
+    while n < inlet_values.size:
+        status, i, j, sweeps = step(p, s, ws, fields, inlet_values[n], outlet_offsets[n], min(known, 2))
         total += sweeps
-        if status != OK and known > 0:  # the past may be a jump, from which no state can be extrapolated
+        if status == OK:
+            n, known = n + 1, known + 1
+        elif known > 0:  # the past may be a jump, from which no state can be extrapolated
             known = 0
-            status, i, j, sweeps = step(p, s, ws, fields, value, offset, 0)
-            total += sweeps
-        known += 1
-        if status != OK:
+        else:
             return status, i, j, n, total
-    return OK, 0, 0, inlet_values.size, total
+    return OK, 0, 0, n, total

@@ -43,7 +43,7 @@ from solver.schemes.two_modes.profiles import (
     viscous_terms,
     weighted_axis,
 )
-from solver.schemes.vectorisation import inlined_kernel, kernel
+from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel
 
 
 @kernel
@@ -136,7 +136,8 @@ def _momentum(p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_v
         _half_cell(p, s, ws, fields, INLET)
     else:
         inlet_flow(p.base, w, inlet_value, w.explicit_flow[0])
-        w.conductance[0, :] = 0.0
+        for j in range(w.conductance.shape[1]):
+            w.conductance[0, j] = 0.0
     _half_cell(p, s, ws, fields, OUTLET)
 
 
@@ -193,7 +194,9 @@ def _mean_rises(
 ) -> None:
     """``scale`` times the rise of the θ-weighted mean pressure over each face; half cells at the ends."""
     n_x, n = pressure.shape
-    old, drive[:] = fields.base.pressure, 0.0
+    old = fields.base.pressure
+    for f in range(n_x + 1):
+        drive[f] = 0.0
     for j in range(n):
         for f in range(1, n_x):
             rise = theta * (pressure[f, j] - pressure[f - 1, j])
@@ -234,7 +237,7 @@ def _follow_axis(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> t
     return taken(ws.axis_drive, ws.axis)
 
 
-@kernel
+@part_of_kernel
 def step(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float, outlet_offset: float
 ) -> tuple[int, int, int, int]:
@@ -273,11 +276,12 @@ def step(
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
 
-@inlined_kernel
+@part_of_kernel
 def _begin(ws: Workspace, fields: Fields) -> None:
     """First iterate without a past: the state."""
     begin_at_state(ws.base, fields.base)
-    ws.axis[:] = fields.axis_velocity
+    for f in range(ws.axis.size):
+        ws.axis[f] = fields.axis_velocity[f]
 
 
 @kernel
@@ -285,17 +289,16 @@ def advance(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Floats, outlet_offsets: Floats
 ) -> tuple[int, int, int, int, int]:
     """Take one step per entry of ``inlet_values`` and ``outlet_offsets``, as the rows' ``advance``."""
-    total, extrapolated = 0, False
-    _begin(ws, fields)
-    for n in range(inlet_values.size):
-        value, offset = inlet_values[n], outlet_offsets[n]
-        status, i, j, sweeps = step(p, s, ws, fields, value, offset)
-        total += sweeps
-        if status != OK and extrapolated:  # the past may be a jump, from which no state can be extrapolated
+    n, total, extrapolated = 0, 0, False
+    while n < inlet_values.size:
+        if not extrapolated:
             _begin(ws, fields)
-            status, i, j, sweeps = step(p, s, ws, fields, value, offset)
-            total += sweeps
-        extrapolated = True
-        if status != OK:
+        status, i, j, sweeps = step(p, s, ws, fields, inlet_values[n], outlet_offsets[n])
+        total += sweeps
+        if status == OK:
+            n, extrapolated = n + 1, True
+        elif extrapolated:  # the past may be a jump, from which no state can be extrapolated
+            extrapolated = False
+        else:
             return status, i, j, n, total
-    return OK, 0, 0, inlet_values.size, total
+    return OK, 0, 0, n, total

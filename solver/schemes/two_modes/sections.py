@@ -45,7 +45,7 @@ from solver.schemes.two_modes.profiles import (
     viscous_terms,
     weighted_axis,
 )
-from solver.schemes.vectorisation import inlined_kernel, kernel
+from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel
 
 
 @inlined_kernel
@@ -185,8 +185,10 @@ def _sweep(
     squares = section_change(s, b, w, gap, answer)
     spread(float(w.change[0]), w.residual[0], w.scratch[3])
     shared = share_outlet(w, outflow + float(w.change[n_x]))
-    w.flux_slope[:] = ws.row_slope
-    w.mean_damping[:] = ws.row_damping
+    for i in range(w.flux_slope.size):
+        w.flux_slope[i] = ws.row_slope[i]
+    for f in range(w.mean_damping.size):
+        w.mean_damping[f] = ws.row_damping[f]
     advection_matrix(s, b, w, of_row)
     solve_rows(w.residual, w.face_area, w.total, w.matrix, shared)
     _to_sections(w.residual, w.change)
@@ -217,7 +219,7 @@ def _follow_axis(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> t
     return taken(ws.axis_drive, ws.axis)
 
 
-@inlined_kernel
+@part_of_kernel
 def _begin(p: Parameters, ws: Workspace, fields: Fields, value: float, order: int) -> tuple[int, int]:
     """First iterate and what stays fixed during a step; status and section."""
     w, base = ws.base, fields.base
@@ -231,7 +233,7 @@ def _begin(p: Parameters, ws: Workspace, fields: Fields, value: float, order: in
     return end_walls(p.base, base.pressure, w.old_end_area)
 
 
-@kernel
+@part_of_kernel
 def step(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, offset: float, order: int
 ) -> tuple[int, int, int, int]:
@@ -266,7 +268,8 @@ def step(
         converged = converged and axis_error <= s.tolerance * axis + rest_axis
         if converged and pressure_error <= s.tolerance * np.sqrt(level) + rest_pressure:
             accept(p.base, s, w, fields.base)
-            fields.axis_velocity[:] = ws.axis
+            for f in range(ws.axis.size):
+                fields.axis_velocity[f] = ws.axis[f]
             return OK, 0, 0, sweep
     return NOT_CONVERGED, 0, 0, s.max_sweeps
 
@@ -276,16 +279,14 @@ def advance(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Floats, outlet_offsets: Floats
 ) -> tuple[int, int, int, int, int]:
     """Take one step per entry of ``inlet_values`` and ``outlet_offsets``, as the sections' ``advance``."""
-    total, known = 0, 0
-    for n in range(inlet_values.size):
-        value, offset = inlet_values[n], outlet_offsets[n]
-        status, i, j, sweeps = step(p, s, ws, fields, value, offset, min(known, 2))
+    n, total, known = 0, 0, 0
+    while n < inlet_values.size:
+        status, i, j, sweeps = step(p, s, ws, fields, inlet_values[n], outlet_offsets[n], min(known, 2))
         total += sweeps
-        if status != OK and known > 0:  # the past may be a jump, from which no state can be extrapolated
+        if status == OK:
+            n, known = n + 1, known + 1
+        elif known > 0:  # the past may be a jump, from which no state can be extrapolated
             known = 0
-            status, i, j, sweeps = step(p, s, ws, fields, value, offset, min(known, 2))
-            total += sweeps
-        known += 1
-        if status != OK:
+        else:
             return status, i, j, n, total
-    return OK, 0, 0, inlet_values.size, total
+    return OK, 0, 0, n, total
