@@ -14,6 +14,11 @@ from cases.sections.case import Case
 def test_the_ready_file_loads(ready_file):
     file = load_case_file(ready_file)
     assert file.name == "calcification"
+    assert list(file.models) == ["row", "coupled"]
+    row, coupled = (each["local"] for each in file.models.values())
+    assert (row.wall.law, coupled.wall.law, coupled.wall.base) == ("thick", "membrane", "thick")
+    assert (row.solver.pressure, coupled.solver.pressure) == ("row", "section")
+    assert (row.uncertainty.method, coupled.uncertainty.method) == ("latin_hypercube", "local")
     assert list(file.variants) == ["none", "axisymmetric", "local"]
     for name, case in file.variants.items():
         assert case.reference.plot_file == ready_file.parents[1] / f"reference_data/febio/{name}.xplt"

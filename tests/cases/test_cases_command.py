@@ -12,10 +12,14 @@ def test_a_line_for_each_variant(ready_file, capsys):
     assert main([str(ready_file)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == (
-        f"{ready_file}: none: calcification none, 120 x 48 cells, 3 cycles of 0.79733 s, "
+        f"{ready_file}: none, model row: calcification none, 120 x 48 cells, 3 cycles of 0.79733 s, "
         "reference none.xplt, none_16.xplt, none.log, none_axis_nodes.txt, none_mid_elements.txt, 2 bands"
     )
-    assert [line.split(": ")[1] for line in lines] == ["none", "axisymmetric", "local"]
+    assert [line.split(": ")[1] for line in lines] == [
+        f"{variant}, model {model}"
+        for model in ("row", "coupled")
+        for variant in ("none", "axisymmetric", "local")
+    ]
 
 
 def test_a_wrong_file_does_not_hide_the_others(folder, ready_file, capsys):
@@ -24,7 +28,7 @@ def test_a_wrong_file_does_not_hide_the_others(folder, ready_file, capsys):
     output = capsys.readouterr()
     assert output.err.startswith(f"{wrong}, line 6: geometry.wall_thickness: ")
     assert "Traceback" not in output.err
-    assert len(output.out.splitlines()) == 3
+    assert len(output.out.splitlines()) == 6
 
 
 @pytest.mark.parametrize("arguments", [[], ["--schema", "x.yaml"], ["--nonsense"]])
@@ -92,6 +96,9 @@ def test_the_schema_accepts_the_ready_file_and_refuses_mistakes(ready_file):
         ("pattern: local", "pattern: lokal"),
         ("x: [5 mm, 10 mm]", "x: [5 mm]"),
         ("variants:", "variant:"),
+        ("models:", "model:"),
+        ("row: {}", "row: {calcification: {pattern: none}}"),
+        ("pressure: section", "pressure: sections"),
         ("standard_deviation: 0.12 mm", "deviation: 0.12 mm"),
         ("closure: average", "limiter: van_leer, error_tolerance: 1 %"),
         ("kind: velocity, waveform", "kind: flux, waveform"),

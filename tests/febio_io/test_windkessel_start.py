@@ -38,7 +38,7 @@ def stated(inlet, tau, **changes):
         "venous_pressure": f"{VENOUS} Pa",
     }
     case = YAML().load(ROOT / "cases/calcification.yaml")
-    for name in ("title", "variants", "compare"):
+    for name in ("title", "models", "variants", "compare"):
         del case[name]
     case |= {"inlet": inlet, "outlet": outlet}
     case["solver"] |= {"n_x": 12, "n_phi": 4, "time_step": "4 ms"}

@@ -13,10 +13,10 @@ IMPOSSIBLE = ("radius", "rms_error", "0.000001 %")
 
 
 def small_case(*variants: str, n_x: int = 12, n_phi: int = 8) -> dict[str, Any]:
-    """Content of the ready case with some of its variants, on a coarse grid, with absolute paths."""
+    """Content of the ready case: its first model, some variants, a coarse grid, and absolute paths."""
     case = YAML().load(READY)
     case["solver"] |= {"n_x": n_x, "n_phi": n_phi, "time_step": "4 ms", "cycles": 1}
-    del case["compare"]["matched_inflow"], case["uncertainty"]
+    del case["compare"]["matched_inflow"], case["uncertainty"], case["models"]
     case["compare"]["cells"] = {"i": [1, 6, 12], "j": [1, 4]}
     case["inlet"]["waveform"] = str(ROOT / case["inlet"]["waveform"])
     case["variants"] = {name: case["variants"][name] for name in variants or ("none", "local")}

@@ -335,6 +335,19 @@ def test_a_case_that_a_calibration_wrote_may_be_replaced(calibration_of, tmp_pat
     assert numeric_keys(load_case_file(target).variants["none"])["outlet.offset"].value == 9500.0
 
 
+def test_a_value_of_the_first_model_stays_in_it(calibration_of, tmp_path):
+    path = calibration_of(MATERIAL, [RADIUS])
+    content = YAML().load(tmp_path / "small.yaml")
+    content["models"] = {"soft": {"wall": {"youngs_modulus": "0.5 MPa"}}, "as_stated": None}
+    written(content, tmp_path)
+    calibration = load_calibration(path)
+    assert calibration.parameters[0].start == 5e5
+    target = tmp_path / "fitted.yaml"
+    write_case(target, calibration, np.array([7e5]))
+    moduli = {name: each["none"].wall.youngs_modulus for name, each in load_case_file(target).models.items()}
+    assert moduli == {"soft": 7e5, "as_stated": 6e5}
+
+
 def test_a_limit_far_below_a_value_is_not_where_it_ends(calibration_of):
     bounds = {"wall.youngs_modulus": {"low": "1 Pa", "high": "1e13 Pa"}}
     _, found = fitted(calibration_of(bounds, [RADIUS | {"value": "2.8 mm"}]))

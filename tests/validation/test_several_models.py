@@ -32,6 +32,7 @@ MODELS = {
 }
 INPUTS = {"wall.youngs_modulus": {"relative": "10 %", "reason": "stated"}}
 VARIANTS = ("none", "local")
+ROWS = rows_of(two_models())
 
 
 @pytest.fixture(scope="module")
@@ -171,7 +172,7 @@ def test_side_by_side_a_model_has_columns_of_its_own(results):
 
 @given(st.permutations(["a", "b", "rom"]))
 def test_lines_of_cases_meet_whatever_their_models_are_called(names):
-    of_one = rows_of(two_models())
+    of_one = [row for row in ROWS if row.quantity == "radius"]
     several = [replace(row, model=name) for name in names for row in of_one]
     table = side_by_side({"one": of_one, "several": several})
     assert len(table) == len(side_by_side({"one": of_one}))
