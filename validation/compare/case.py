@@ -165,7 +165,7 @@ Runs = dict[str, dict[str, VariantRun]]  # by variant and model
 
 def _compared(file: CaseFile, directory: Path, watch: Watch) -> tuple[list[MetricRow], Runs, list[str]]:
     """Run all models of all variants; leave comparison.nc. Returns all rows, the runs, and notes."""
-    alignments, notes = at_common_instants(file.variants, align_variants(file.variants))
+    alignments, notes = at_common_instants(file.variants, align_variants(file.variants, watch))
     times = alignments[next(iter(file.variants))].cycle_times
     about = attributes(file, times)
     rows: dict[tuple[str, str], list[MetricRow]] = {}

@@ -9,7 +9,7 @@ from validation.reference.kind import ReferenceKind
 
 
 def kind_of(variant: str, case: Case) -> ReferenceKind:
-    """Kind of a variant's reference.
+    """Kind of a variant's reference; the module that reads it loads when something is first read.
 
     Raises
     ------
@@ -18,5 +18,14 @@ def kind_of(variant: str, case: Case) -> ReferenceKind:
     """
     if case.reference is None:
         raise ValidationError(f"variant {variant!r} states no reference")
-    kind: ReferenceKind = import_module(KINDS[case.reference.kind].reader).KIND
-    return kind
+    reader = KINDS[case.reference.kind].reader
+
+    def kind() -> ReferenceKind:
+        found: ReferenceKind = import_module(reader).KIND
+        return found
+
+    return ReferenceKind(
+        align=lambda case: kind().align(case),
+        read=lambda case, rays, progress, alignment: kind().read(case, rays, progress, alignment),
+        how_to_make=lambda stated, path, variant: kind().how_to_make(stated, path, variant),
+    )

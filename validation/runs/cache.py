@@ -154,15 +154,11 @@ def _dataset(
     stored: Mapping[str, NDArray[Any]],
     packed: Mapping[str, Packed],
 ) -> xr.Dataset:
-    variables = {
-        kind: {
-            n: (tuple(about["dims"]), stored.get(f"{name}/{n}", packed.get(f"{name}/{n}")), about["attrs"])
-            for n, about in parts[kind].items()
-        }
-        for kind in ("coords", "data_vars")
-    }
-    found = xr.Dataset(variables["data_vars"], coords=variables["coords"])
-    for n in parts["data_vars"]:
-        if f"{name}/{n}" in packed:
-            found[n] = kept_with(found[n], packed[f"{name}/{n}"])
-    return found
+    def variable(n: str, about: Mapping[str, Any]) -> xr.Variable:
+        key = f"{name}/{n}"
+        known = packed.get(key)
+        values = xr.Variable(about["dims"], stored.get(key, known), about["attrs"])
+        return values if known is None else kept_with(values, known)
+
+    kinds = {kind: {n: variable(n, about) for n, about in parts[kind].items()} for kind in parts}
+    return xr.Dataset(kinds["data_vars"], coords=kinds["coords"])

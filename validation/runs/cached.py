@@ -5,6 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+import numpy as np
+
 from cases.sections.case import Case
 from validation.errors import ValidationError
 from validation.mapping.rays import Rays
@@ -152,6 +154,27 @@ def cached_numbers(
         lambda entry: Numbers(entry.facts["values"], entry.facts["description"]),
         remark,
     )
+
+
+def cached_alignment(store: Cache | None, kind: ReferenceKind, case: Case, remark: Remark) -> Alignment:
+    """Align a reference with the reduced model, or take its instants from the cache."""
+    parts = {
+        name: getattr(case, name)
+        for name in type(case).model_fields
+        if name not in {"title", "compare", "uncertainty"}
+    }
+
+    def compute() -> Numbers:
+        found = kind.align(case)
+        return Numbers({name: np.asarray(value).tolist() for name, value in vars(found).items()})
+
+    try:
+        key = key_of("reference", {"alignment of": parts})
+    except OSError:  # of a file that its reader should name
+        return kind.align(case)
+    stated = cached_numbers(store, lambda: key, compute, remark).values
+    arrays = {name: np.array(value) for name, value in stated.items() if isinstance(value, list)}
+    return Alignment(**(stated | arrays))
 
 
 def _cached(

@@ -128,17 +128,17 @@ def packed_of(values: xr.DataArray) -> Packed:
 
 def with_packed(fields: xr.Dataset) -> xr.Dataset:
     """Fields whose values of cells are packed: on rays, which are most, in their place, else beside it."""
-    found = fields.copy()
-    for name, values in fields.data_vars.items():
-        if packable(values):
-            found[name] = kept_with(values, packed_of(values))
-    return found
+    return fields.assign(
+        {
+            name: kept_with(values.variable, packed_of(values))
+            for name, values in fields.data_vars.items()
+            if packable(values)
+        }
+    )
 
 
-def kept_with(values: xr.DataArray, packed: Packed) -> xr.DataArray:
+def kept_with(values: xr.Variable, packed: Packed) -> xr.Variable:
     """Values of cells with what they are when packed; on rays that alone."""
     if values.ndim > len(CELLS):
-        return values.copy(data=packed)
-    found = values.copy(deep=False)
-    found.encoding = {ENCODING: (packed, found.data)}
-    return found
+        return xr.Variable(values.dims, packed, values.attrs)
+    return xr.Variable(values.dims, values.data, values.attrs, {ENCODING: (packed, values.data)})

@@ -24,7 +24,7 @@ from validation.reference.alignment import Alignment
 from validation.reference.kind import Progress, Reference
 from validation.reference.kinds import kind_of
 from validation.runs.cache import Cache
-from validation.runs.cached import cached_reference, cached_rom
+from validation.runs.cached import cached_alignment, cached_reference, cached_rom
 from validation.runs.matched_inflow import with_inflow_of
 from validation.runs.reduced_model import ReducedModelRun
 
@@ -69,7 +69,7 @@ def watching(cache: Cache | None = None) -> Iterator[Watch]:
         yield Watch(display, cache)
 
 
-def align_variants(cases: Mapping[str, Case]) -> dict[str, Alignment]:
+def align_variants(cases: Mapping[str, Case], watch: Watch) -> dict[str, Alignment]:
     """Instants of every variant's reference.
 
     Raises
@@ -77,7 +77,7 @@ def align_variants(cases: Mapping[str, Case]) -> dict[str, Alignment]:
     ValidationError
         If a case states no reference; else as the kind of reference raises.
     """
-    return {name: kind_of(name, case).align(case) for name, case in cases.items()}
+    return {name: _alignment(name, case, watch) for name, case in cases.items()}
 
 
 def run_variants(
@@ -162,6 +162,10 @@ def run_variants(
         pool.shutdown(wait=False, cancel_futures=True)
 
 
+def _alignment(name: str, case: Case, watch: Watch) -> Alignment:
+    return cached_alignment(watch.cache, kind_of(name, case), case, watch.remarks.append)
+
+
 def _reference(name: str, case: Case, alignment: Alignment, watch: Watch) -> Reference:
     """Map the reference of one variant."""
     with watch.step(f"{name}: 3D onto cells") as progress:
@@ -205,7 +209,7 @@ def resolved(models: Mapping[str, Mapping[str, Case]], watch: Watch) -> dict[str
     found = {model: dict(cases) for model, cases in models.items()}
     for name, case in next(iter(models.values())).items():
         if isinstance(case.inlet, ReferenceInlet):
-            alignment = kind_of(name, case).align(case)
+            alignment = _alignment(name, case, watch)
             inlet = with_inflow_of(case, _reference(name, case, alignment, watch)).inlet
             compare = case.compare.model_copy(update={"matched_inflow": True})
             for cases in found.values():
