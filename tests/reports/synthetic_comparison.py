@@ -149,7 +149,9 @@ def fields(setup: Setup) -> dict[str, np.ndarray]:
                 ("axis_velocity_spread", 0.0 * section),
             ):
                 out.setdefault(f"{model}_{key}", []).append(values)
-            if not two:
+            if two:
+                out.setdefault("rom_axial_dominance_radial", []).append(0.01 + 0.1 * stiff[0])
+            else:
                 across = np.zeros_like(profile)
                 across[..., 1:-1] = 0.02 * np.gradient(radius, x, axis=1)[..., None] * profile[..., 1:-1]
                 for key, values in (
@@ -172,6 +174,7 @@ def dataset(setup: Setup, arrays: dict[str, np.ndarray]) -> xr.Dataset:
     rays = ("variant", "time", "x", "phi", "y")
     walls = (
         "rom_wall_stiffness",
+        "rom_axial_dominance_radial",
         "calcified",
         *(f"reference_axial_dominance_{a}" for a in ("radial", "azimuthal")),
     )
@@ -198,6 +201,7 @@ def dataset(setup: Setup, arrays: dict[str, np.ndarray]) -> xr.Dataset:
             "case": "synthetic",
             "title": setup.title,
             "models": json.dumps(["rom"]),
+            "variant_titles": json.dumps([f"pattern {name}" for name in setup.variants]),
             "baseline": setup.baseline,
             "period_s": PERIOD,
             "compare_i": np.array(setup.i),

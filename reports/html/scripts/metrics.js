@@ -40,6 +40,7 @@ function searched(all, controls, place, words, label) {
   table.setAttribute("aria-label", label);
   place.className = "scroll";
   place.setAttribute("role", "region");
+  place.setAttribute("aria-label", `${label}: rows`);
   place.tabIndex = 0;
   place.append(table);
   const back = element("button", { type: "button" }, "Earlier rows");
