@@ -80,21 +80,20 @@ def which_model(comparison: Comparison) -> str:
     said = []
     for quantity in dict.fromkeys(row.quantity for row in bands):
         by_model: dict[str, list[str]] = {}
-        for variant in comparison.variants:
-            holding = [m for m in comparison.models if _holds(comparison, m, variant, quantity)]
-            by_model.setdefault(_first(holding), []).append(variant)
-        parts = [f"{model} for {listed(names)}" for model, names in by_model.items()]
-        said.append(f"{quantity_words(quantity)}: {', '.join(parts)}")
+        for variant in dict.fromkeys(row.variant for row in bands if row.quantity == quantity):
+            if not trust.not_periodic(comparison, variant):
+                holding = [m for m in comparison.models if _holds(comparison, m, variant, quantity)]
+                by_model.setdefault(holding[0] if holding else "no model", []).append(variant)
+        parts = [f"{model} in {listed(names)}" for model, names in by_model.items()]
+        said += [f"{quantity_words(quantity)}: {', '.join(parts)}"] if parts else []
+    if not said:
+        return ""
     return f"Which model for which question (the first in the file within all limits): {'; '.join(said)}."
-
-
-def _first(models: list[str]) -> str:
-    return models[0] if models else "none"
 
 
 def _holds(comparison: Comparison, model: str, variant: str, quantity: str) -> bool:
     rows = [row for row in _bands(comparison, model, variant) if row.quantity == quantity]
-    return all(row.status == "OK" for row in rows) and not trust.not_periodic(comparison, variant)
+    return all(row.status == "OK" for row in rows)
 
 
 @declared("answer", "May the 2D model replace 3D?")

@@ -161,7 +161,9 @@ def _figure(comparison: Comparison) -> Figure:
     lines = [("3D", [_maps(comparison, name, "reference") for name in comparison.variants])]
     for model in comparison.models:
         view = comparison.of(model)
-        lines.append((headed(comparison, model), [_maps(view, name, "rom") for name in comparison.variants]))
+        if f"rom_{RADIAL}" in view.fields:
+            maps = [_maps(view, name, "rom") for name in comparison.variants]
+            lines.append((headed(comparison, model), maps))
     fields = comparison.fields
     return Figure(
         "dominance-figure",

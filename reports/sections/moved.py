@@ -110,14 +110,16 @@ def section(comparison: Comparison) -> Blocks:
     rows = [_row(comparison, quantity, axis, place) for quantity, axis in shown]
     when = instant(*comparison.times[0])
     what = f"variant minus {baseline_words(comparison)}, at {when}"
+    drawn = listed(
+        f"{quantity_words(quantity)} {'along the artery' if axis == 'x' else 'around it'}"
+        for quantity, axis in shown
+    )
     blocks.append(
         Figure(
             "moved-figure",
-            f"What calcification changes ({what}) in the lumen radius along the artery and around it, "
-            f"and in the flow rate of the {comparison.n_phi} sectors; 3D as points. What to see: where a "
-            "line leaves the points, that model gets calcification wrong.",
-            f"Curves of the change of radius along x and around φ, and of the sectors' flow, {what}, in "
-            f"3D and in {listed(comparison.models)}.",
+            f"What calcification changes ({what}): {drawn}; 3D as points. What to see: where a line leaves "
+            "the points, that model gets calcification wrong.",
+            f"Curves of the change of {drawn}, {what}, in 3D and in {listed(comparison.models)}.",
             partial(
                 along_and_around,
                 [f"{name} − {comparison.baselines[name]}" for name in comparison.changed],

@@ -6,6 +6,7 @@ bands and provenance that belong to them.
 
 import hashlib
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,11 @@ import xarray as xr
 PERIOD = 0.797333
 LENGTH = 15e-3
 VARIANTS = ("none", "axisymmetric", "local")
+TITLES = {
+    "none": "No calcification",
+    "axisymmetric": "Ring of calcification",
+    "local": "Patch of calcification",
+}
 UNITS = {
     "pressure": "Pa",
     "radius": "m",
@@ -201,7 +207,7 @@ def dataset(setup: Setup, arrays: dict[str, np.ndarray]) -> xr.Dataset:
             "case": "synthetic",
             "title": setup.title,
             "models": json.dumps(["rom"]),
-            "variant_titles": json.dumps([f"pattern {name}" for name in setup.variants]),
+            "variant_titles": json.dumps([TITLES.get(name, name) for name in setup.variants]),
             "baseline": setup.baseline,
             "period_s": PERIOD,
             "compare_i": np.array(setup.i),
@@ -341,7 +347,25 @@ def _pooled_rows(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, 
             ):
                 rows.append(_row(variant, quantity, statistic, unit, error=float(value)))
             rows.append(_row(variant, quantity, "max_error", unit, error=float(error[at]), **found))
+            if setup.baseline and variant != setup.baseline:
+                rows.append(_change_row(setup, arrays, variant, quantity, unit))
     return rows
+
+
+def _change_row(
+    setup: Setup, arrays: dict[str, np.ndarray], variant: str, quantity: str, unit: str
+) -> dict[str, Any]:
+    """How far both models' changes from the baseline are apart over all cells and states."""
+    now, base = setup.variants.index(variant), setup.variants.index(setup.baseline)
+    two, three = (
+        arrays[f"{m}_{quantity}"][now] - arrays[f"{m}_{quantity}"][base] for m in ("rom", "reference")
+    )
+    sizes = {"rom": _rms(two), "reference": _rms(three), "error": _rms(two - three) / _rms(three)}
+    return _row(variant, quantity, "change_rms", unit, **sizes)
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt((values**2).mean()))
 
 
 def _cycle_rows(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
@@ -505,33 +529,36 @@ def provenance(setup: Setup) -> dict[str, Any]:
     }
 
 
-def of_models(
-    content: tuple[xr.Dataset, list[dict[str, Any]], dict[str, Any]], models: tuple[str, ...]
-) -> tuple[xr.Dataset, list[dict[str, Any]], dict[str, Any]]:
-    """The same with several models, each after the first a percent off what the one before gave."""
-    both, rows, record = content
-    own = [str(name) for name in both.data_vars if str(name).startswith("rom_")]
-    parts, found = [both.drop_vars(own)], []
-    for k, model in enumerate(models):
-        share = 1.01**k
-        parts.append(share * both[own].rename({name: f"{model}_{name[4:]}" for name in own}))
-        found += [{**row, "model": model, "rom": row["rom"] and share * row["rom"]} for row in rows]
-    told = {
-        name: {**each, "models": dict.fromkeys(models, each["models"]["rom"])}
-        for name, each in record["variants"].items()
+def of_models(setup: Setup, models: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
+    """Arrays by model: what each after the first gives is a percent above that of the one before."""
+    arrays = fields(setup)
+    return {
+        model: {key: values * 1.01**k if key.startswith("rom_") else values for key, values in arrays.items()}
+        for k, model in enumerate(models)
     }
-    merged = xr.merge(parts).assign_attrs(both.attrs | {"models": json.dumps(models)})
-    return merged, found, record | {"variants": told}
+
+
+def content(setup: Setup, models: Sequence[str]) -> tuple[xr.Dataset, list[dict[str, Any]], dict[str, Any]]:
+    """What comparison.nc, metrics.json and provenance.json hold of one or several models."""
+    by_model = of_models(setup, models)
+    parts, rows = [], []
+    for model, arrays in by_model.items():
+        single = dataset(setup, arrays)
+        own = {name: f"{model}_{str(name)[4:]}" for name in single.data_vars if str(name).startswith("rom_")}
+        parts.append(single.rename(own) if not parts else single[list(own)].rename(own))
+        rows += [{**row, "model": model} for row in metrics(setup, arrays)]
+    record = provenance(setup)
+    for of_variant in record["variants"].values():
+        of_variant["models"] = dict.fromkeys(models, of_variant["models"]["rom"])
+    merged = xr.merge(parts, combine_attrs="override").assign_attrs(models=json.dumps(list(models)))
+    return merged, rows, record
 
 
 def write(
     directory: Path, setup: Setup | None = None, models: tuple[str, ...] = ("rom",)
 ) -> list[dict[str, Any]]:
     """Write a finished comparison and return its metrics."""
-    setup = setup or Setup()
-    arrays = fields(setup)
-    content = dataset(setup, arrays), metrics(setup, arrays), provenance(setup)
-    both, rows, record = content if models == ("rom",) else of_models(content, models)
+    both, rows, record = content(setup or Setup(), models)
     directory.mkdir(parents=True, exist_ok=True)
     both.to_netcdf(directory / "comparison.nc", engine="netcdf4")
     (directory / "metrics.json").write_text(json.dumps(rows), encoding="utf-8")

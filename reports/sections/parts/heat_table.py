@@ -75,7 +75,7 @@ def _over(row: MetricRow | None) -> str:
 def _shade(comparison: Comparison, row: MetricRow) -> Shade:
     if row.error is None or trust.not_periodic(comparison, row.variant):
         return "unjudged"
-    if row.ratio <= 1:
+    if row.status == "OK":
         return "within"
     return "beyond" if row.ratio <= _FAR else "far"
 
@@ -97,9 +97,8 @@ def _over_limit(part: float | None, row: MetricRow | None) -> str:
 
 
 def _unjudged(comparison: Comparison, places: list[Place]) -> Iterator[Line]:
-    """Lines of quantities that no band judges, those with the largest errors first."""
-    judged = {row.quantity for model in comparison.models for row in comparison.of(model).metrics.bands()}
-    fields = [name for name in pooled() if name not in judged and "y" not in FIELDS[name].dims]
+    """Lines of quantities that no band judges of some variant, those with the largest errors first."""
+    fields = [name for name in pooled() if "y" not in FIELDS[name].dims]
     cycle = [name for name in of_cycle() if FIELDS[name].unit != "s"]
     for names, statistic, most in ((fields, "rms_error", _OF_FIELDS), (cycle, "cycle", _OF_CYCLE)):
         found = {name: [_error(comparison, place, name, statistic) for place in places] for name in names}
@@ -114,6 +113,9 @@ def _unjudged(comparison: Comparison, places: list[Place]) -> Iterator[Line]:
 
 
 def _error(comparison: Comparison, place: Place, quantity: str, statistic: str) -> float | None:
+    """Error of a quantity; None where a band judges it, or it is not known."""
     variant, model = place
-    row = comparison.of(model).metrics.find(variant, quantity, statistic)
+    metrics = comparison.of(model).metrics
+    judged = any((row.variant, row.quantity) == (variant, quantity) for row in metrics.bands())
+    row = None if judged else metrics.find(variant, quantity, statistic)
     return None if row is None else row.error

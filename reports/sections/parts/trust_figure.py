@@ -8,10 +8,11 @@ from cases.arrays import Floats
 from reports.blocks import Figure
 from reports.figures.trust_map import TrustRow, trust_map
 from reports.result.load import Comparison
-from reports.sections.parts.limits import worst_over_limits
+from reports.sections.parts.limits import over_limit, worst_over_limits
 from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import columns_of, headed
 from reports.wording.numbers import listed, share
+from reports.wording.words import quantity_words, statistic_words
 
 
 def has_trust_map(comparison: Comparison) -> bool:
@@ -31,6 +32,18 @@ def _ratios(comparison: Comparison) -> dict[str, list[Floats]]:
     return found
 
 
+def _mapped(comparison: Comparison) -> str:
+    """Name the bands that have a place in the artery, and say that others have none."""
+    of_cells: dict[str, None] = {}
+    others = False
+    for row in comparison.metrics.bands():
+        if over_limit(comparison, row) is None:
+            others = True
+        else:
+            of_cells[f"{statistic_words(row.statistic)} of {quantity_words(row.quantity)}"] = None
+    return listed(of_cells) + ("; other limits have no place on it" if others else "")
+
+
 def trust_figure(comparison: Comparison) -> Figure:
     """Return the map of the largest error over its limit, a row of panels a model."""
     ratios = _ratios(comparison)
@@ -42,8 +55,8 @@ def trust_figure(comparison: Comparison) -> Figure:
     )
     return Figure(
         "trust-map",
-        "The artery unrolled: in each cell the largest error over its limit, blue inside every limit, "
-        f"orange outside. Share of the wall inside: {said}.",
+        f"The artery unrolled: in each cell the largest error over its limit ({_mapped(comparison)}), blue "
+        f"inside every such limit, orange outside. Share of the wall inside: {said}.",
         f"Maps over x and φ of where each model is within its limits. Share inside: {said}.",
         partial(
             trust_map,
