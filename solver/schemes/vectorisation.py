@@ -7,18 +7,29 @@ instead of rows, so that a loop that reads one row and writes the next of the sa
 A product and a sum may become one instruction, which rounds once; only sums declared so may be reordered.
 """
 
+from collections.abc import Callable
+from typing import Any, TypeVar
+
 from llvmlite import binding  # type: ignore[import-untyped]
 from numba import njit
 
 MOST_OVERLAP_CHECKS = 256
 
-_shared = {"nogil": True, "error_model": "numpy"}
-_kept = {"cache": True, "no_cfunc_wrapper": True}  # nothing calls a kernel by its C address
-kernel = njit(**_shared, **_kept, fastmath={"contract"})
-inlined_kernel = njit(**_shared, **_kept, fastmath={"contract"}, forceinline=True)
-summing_kernel = njit(**_shared, **_kept, fastmath={"contract", "reassoc"})
+Function = TypeVar("Function", bound=Callable[..., object])
+
+
+def _compiled(**options: Any) -> Callable[[Function], Function]:
+    """Decorator ``njit`` with options that its types leave out."""
+    decorator: Callable[[Function], Function] = njit(nogil=True, error_model="numpy", **options)
+    return decorator
+
+
+_KEPT = {"cache": True, "no_cfunc_wrapper": True}  # nothing calls a kernel by its C address
+kernel = _compiled(**_KEPT, fastmath={"contract"})
+inlined_kernel = _compiled(**_KEPT, fastmath={"contract"}, forceinline=True)
+summing_kernel = _compiled(**_KEPT, fastmath={"contract", "reassoc"})
 # written out in its caller: as a kernel of its own it would be optimised once more with all that it calls
-part_of_kernel = njit(**_shared, fastmath={"contract"}, inline="always")
+part_of_kernel = _compiled(fastmath={"contract"}, inline="always")
 
 
 def compare_rows() -> None:
