@@ -152,7 +152,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
         check_variants(file.variants)
         rows, runs, notes = _compared(file, directory, watch)
         with watch.step("metrics"):
-            write_metrics(directory, metrics.to_frame(rows))
+            write_metrics(directory, rows)
         account = described(file, runs, watch.wall_times, command, [*watch.remarks, *notes])
         write_json(directory / "provenance.json", account.written())
         with watch.step("reports"):

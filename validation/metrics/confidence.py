@@ -8,7 +8,6 @@ from cases.arrays import Floats
 from cases.quantities import tabulated
 from cases.results.metric_row import MetricRow
 from validation.metrics.rows import Models
-from validation.metrics.statistics import relative_error
 
 SEED = 0  # of the random numbers: the same comparison gives the same interval
 RESAMPLES = 2000
@@ -56,8 +55,7 @@ SAME_INSTANT = 1e-3  # share of a cycle by which its two ends may miss each othe
 def confidence_rows(models: Models) -> Iterator[MetricRow]:
     """Limits of the bias with 95 % confidence, and the cell whose error over the cycle is largest."""
     for quantity in tabulated():
-        rom, reference = models.pair(quantity)
-        error = None if models.sparse else relative_error(rom, reference)
+        error = None if models.sparse else models.relative_error(quantity)
         low, high = (None, None) if error is None else mean_interval(_each_instant(models, error))
         yield models.row(quantity, "bias_low", error=low)
         yield models.row(quantity, "bias_high", error=high)

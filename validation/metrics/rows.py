@@ -15,7 +15,7 @@ from cases.results.comparison_file import REFERENCE, ROM, variable
 from cases.results.metric_row import COLUMNS, MetricRow, metric_row
 from cases.statistics import statistic_of
 from validation.metrics.quantities import CYCLE_QUANTITIES, phase_lag, values_of
-from validation.metrics.statistics import EXTREMES, relative_error, statistic_value
+from validation.metrics.statistics import EXTREMES, OF_ERROR, relative_error, statistic_value
 
 DOMINANCE = ("axial_dominance_radial", "axial_dominance_azimuthal")
 
@@ -36,6 +36,7 @@ class Models:
     sparse: bool = False
     stated: Mapping[str, float] = field(default_factory=dict)
     model: str = ROM
+    _errors: dict[str, Floats | None] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def has(self, quantity: str) -> bool:
         """Whether both models have a quantity."""
@@ -44,6 +45,19 @@ class Models:
     def pair(self, quantity: str) -> tuple[Floats, Floats]:
         """Values of a quantity in both models, float64."""
         return values_of(quantity, self.rom), values_of(quantity, self.reference)
+
+    def relative_error(self, quantity: str) -> Floats | None:
+        """Relative error of a quantity over all entries, computed once; None where it has no meaning."""
+        if quantity not in self._errors:
+            self._errors[quantity] = relative_error(*self.pair(quantity))
+        return self._errors[quantity]
+
+    def pooled(self, quantity: str, name: str) -> float | None:
+        """Value of a statistic over all cells and states; None where it has no meaning."""
+        if self.sparse or name not in OF_ERROR:
+            return self.statistic(name, *self.pair(quantity))
+        error = self.relative_error(quantity)
+        return None if error is None else OF_ERROR[name](error)
 
     def statistic(self, name: str, rom: Floats, reference: Floats) -> float | None:
         """Value of a statistic over all entries that the reference states; None where it has no meaning."""
@@ -132,7 +146,7 @@ def pooled_rows(models: Models) -> Iterator[MetricRow]:
     for quantity in pooled():
         rom, reference = models.pair(quantity)
         for statistic in statistics_of(quantity):
-            row = models.row(quantity, statistic, error=models.statistic(statistic, rom, reference))
+            row = models.row(quantity, statistic, error=models.pooled(quantity, statistic))
             yield _with_place(row, models, rom, reference) if statistic.startswith("max_") else row
 
 

@@ -1,21 +1,18 @@
 """A result directory, written whole or not at all."""
 
-from __future__ import annotations
-
+import csv
 import json
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from cases.results.comparison_file import REFERENCE, ROM, variable
+from cases.results.metric_row import COLUMNS, MetricRow
 from cases.shell.whole import write_text, write_whole_folder, writing
 from validation.errors import ValidationError
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MARK = "provenance.json"  # every finished result has one
 RESULT_FILES = {
@@ -98,16 +95,20 @@ def write_json(path: Path, content: Any) -> None:
     write_text(path, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
 
 
-def write_metrics(directory: Path, table: pd.DataFrame) -> None:
-    """Write metrics.csv and metrics.json, a line a row, 17 digits."""
-    import pandas as pd
-
-    def plain(value: Any) -> Any:
-        if value is None or value is pd.NA:
-            return None
-        return None if isinstance(value, float) and not math.isfinite(value) else value
-
-    table.to_csv(directory / "metrics.csv", index=False)
-    records = [{k: plain(v) for k, v in row.items()} for row in table.astype(object).to_dict("records")]
+def write_metrics(directory: Path, rows: Iterable[MetricRow]) -> None:
+    """Write metrics.csv and metrics.json, a line a row, 17 digits; null where not finite."""
+    records = [_record(row) for row in rows]
+    with (directory / "metrics.csv").open("w", encoding="utf-8", newline="") as stream:
+        table = csv.writer(stream, lineterminator="\n")
+        table.writerow(COLUMNS)
+        table.writerows(record.values() for record in records)
     lines = [json.dumps(record, ensure_ascii=False, allow_nan=False) for record in records]
     write_text(directory / "metrics.json", "[\n" + ",\n".join(lines) + "\n]\n")
+
+
+def _record(row: MetricRow) -> dict[str, Any]:
+    found = {name: getattr(row, name) for name in COLUMNS}
+    for name in ("t_s", "rom", "reference", "error", "band"):
+        if found[name] is not None:  # γ of plug flow is infinite
+            found[name] = float(found[name]) if math.isfinite(found[name]) else None
+    return found
