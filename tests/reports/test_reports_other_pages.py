@@ -63,6 +63,8 @@ def test_a_sweep_reads_without_scripts(browser: Browser, pages: tuple[Path, pd.D
     for size in (WIDE, NARROW):
         one = open_page(browser, pages[0] / "sweep" / "index.html", viewport=size, java_script_enabled=False)
         assert one.page.locator("[data-interactive]:visible").count() == 0
+        for fold in one.page.locator("main details.fold > summary").all():
+            fold.click()
         assert one.page.locator("main img:visible").count() == one.page.locator("main figure").count() >= 4
         assert "are within all their bands" in one.page.locator("#main").inner_text()
         one.page.context.close()

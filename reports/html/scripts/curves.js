@@ -23,7 +23,7 @@ async function drawCurves(place, words) {
     { name: two, panel: 0, y: rom, colour: modelColour(), kind: "line" },
     { name: apart, panel: 1, y: difference, colour: "var(--difference)", kind: "line", dash: true },
   ].map((line) => ({ ...line, x: page.time }));
-  const told = (k) => [moment(k), `3D ${withUnit(number(reference[k]), field.unit)}`, `${two} ${withUnit(number(rom[k]), field.unit)}`,
+  const told = (k) => [moment(k), `3D ${valueWords(reference[k], field)}`, `${two} ${valueWords(rom[k], field)}`,
     `${apart} ${withUnit(signed(difference[k]), field.difference_unit)}`];
   const last = page.time[count.time - 1];
   chart(place, {

@@ -34,8 +34,7 @@ async function numbersOf({ shape, low, step, data }) {
 }
 
 function number(value, digits = 4) {
-  if (value === null) return "—";
-  if (!Number.isFinite(value)) return "> 100 (plug flow)";
+  if (value === null || !Number.isFinite(value)) return "—";
   return String(Number(value.toPrecision(digits))).replace("-", "−");
 }
 const signed = (value, digits = 3) => (value > 0 ? "+" : "") + number(value, digits);

@@ -22,7 +22,7 @@ function maps(host) {
     ];
     const cellUnder = drawMaps(canvas, place.clientWidth, panels, await unpack(page.calcified[chosen.variant]));
     place.drawn = panels;
-    const values = (k) => panels.map((panel) => `${panel.title} ${withUnit(number(panel.values[k]), panel.unit)}`);
+    const values = (k) => panels.map((panel, n) => `${panel.title} ${n < 2 ? valueWords(panel.values[k], field) : withUnit(signed(panel.values[k]), panel.unit)}`);
     told = (event) => {
       const cell = cellUnder(event);
       return cell && { cell, lines: [placeWords(...cell), ...values(cell[0] * count.phi + cell[1])] };

@@ -13,7 +13,7 @@ function themes() {
 }
 
 // Figures come when the reader is near them; the others follow one by one while the browser is idle.
-function figures() {
+async function figures() {
   const images = [...document.querySelectorAll("figure noscript")].map((still) => {
     const inert = element("template", { innerHTML: still.textContent });
     const image = inert.content.firstElementChild;
@@ -22,12 +22,17 @@ function figures() {
     image.src = `data:image/svg+xml,<svg xmlns='http://www.w3.org/2000/svg' width='${width}' height='${height}'/>`;
     still.replaceWith(image);
     enlargeable(image.closest("figure"), image);
-    return { image, draw: () => { if (image.src.length < 200) image.src = source; } };
+    let there = null;
+    const draw = () => (there ??= new Promise((done) => { image.onload = image.onerror = done; image.src = source; }));
+    return { image, draw };
   });
   const seen = new IntersectionObserver((entries) => entries.filter((entry) => entry.isIntersecting)
     .forEach((entry) => { seen.unobserve(entry.target); images.find(({ image }) => image === entry.target).draw(); }), { rootMargin: "800px" });
   images.forEach(({ image }) => seen.observe(image));
-  images.forEach(({ image, draw }) => inTurn(async () => { draw(); await image.decode().catch(() => undefined); }));
+  for (const { image, draw } of images) {
+    await new Promise((next) => idle(next));
+    await draw();
+  }
 }
 
 // A figure too small to read on a telephone opens at its full size.
@@ -49,7 +54,7 @@ function enlargeable(figure, image) {
 // What an address or a link leads to is unfolded; so is all when it is printed.
 function unfolding() {
   const unfold = () => {
-    const found = document.getElementById(decodeURIComponent(location.hash.slice(1).split("&")[0]));
+    const found = document.getElementById(location.hash.slice(1).split("&")[0]);
     if (!found) return;
     for (let at = found; at; at = at.parentElement) if (at.tagName === "DETAILS") at.open = true;
     found.scrollIntoView();

@@ -30,7 +30,7 @@ function latest(draw) {
 // First drawings wait for their turn in idle time, so that the page answers between them.
 let queue = Promise.resolve();
 function inTurn(run) {
-  queue = queue.then(() => new Promise((done) => idle(() => run().then(done), { timeout: 400 })));
+  queue = queue.then(() => new Promise((done) => idle(() => run().finally(done), { timeout: 400 })));
 }
 
 // Draws when a place is near the window, then at each wish while it is; a wish from afar waits.
