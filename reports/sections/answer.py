@@ -13,7 +13,7 @@ from reports.sections.parts.limits import place_beyond
 from reports.sections.parts.models import model_words
 from reports.sections.parts.trust_figure import has_trust_map, trust_figure
 from reports.wording.numbers import listed, share
-from reports.wording.words import limit, measure, quantity_words, statistic_words
+from reports.wording.words import error_text, limit, quantity_words, statistic_words
 
 
 def _bands(comparison: Comparison, model: str, variant: str) -> list[MetricRow]:
@@ -35,10 +35,7 @@ def answer(comparison: Comparison, variant: str) -> str:
     what = listed(dict.fromkeys(quantity_words(row.quantity) for row in judged[comparison.models[0]]))
     if not bad:
         return f"{opening}yes, for {what}, with {model_words(comparison, good)}{_nearest(judged)}."
-    said = " ".join(
-        f"{_capital(model_words(comparison, [model]))} misses {_missed(comparison, model, failing[model])}."
-        for model in bad
-    )
+    said = " ".join(_missed(comparison, model, failing[model]) for model in bad)
     if not good:
         return f"{opening}no. {said}"
     return f"{opening}yes, for {what}, with {model_words(comparison, good)}. {said}"
@@ -55,21 +52,25 @@ def _nearest(judged: dict[str, list[MetricRow]]) -> str:
 
 
 def _against(row: MetricRow) -> str:
-    return f"{statistic_words(row.statistic)} {measure(row, row.error)}, limit {limit(row)}"
+    return f"{statistic_words(row.statistic)} {error_text(row)}, limit {limit(row)}"
 
 
 def _missed(comparison: Comparison, model: str, rows: Iterable[MetricRow]) -> str:
-    """Name what is beyond its limit, by how much and where."""
-    said = []
+    """Name what a model misses, by how much and where, and what could not be judged."""
+    name = _capital(model_words(comparison, [model]))
+    beyond, unknown = [], []
     for row in rows:
         if row.error is None:
-            said.append(f"{quantity_words(row.quantity)} could not be judged")
+            unknown.append(quantity_words(row.quantity))
             continue
         where = place_beyond(comparison.of(model), row)
-        said.append(
+        beyond.append(
             f"{quantity_words(row.quantity)}, {_against(row)}{f', exceeded {where}' if where else ''}"
         )
-    return "; ".join(said)
+    said = [f"{name} misses {'; '.join(beyond)}."] if beyond else []
+    if unknown:
+        said.append(f"{'It' if beyond else name} could not be judged by {listed(unknown)}.")
+    return " ".join(said)
 
 
 def which_model(comparison: Comparison) -> str:

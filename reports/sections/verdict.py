@@ -8,7 +8,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts import error_budget, pooled, trust
 from reports.wording.numbers import ABSENT, counted, listed, rounded, share
-from reports.wording.words import limit, measure, place, quantity_words, statistic_words
+from reports.wording.words import error_text, limit, place, quantity_words, statistic_words
 
 _ORDER = {"FAIL": 0, "MISSING": 1, "OK": 2}
 
@@ -65,7 +65,7 @@ def worst(comparison: Comparison) -> str:
     opening = "Furthest beyond its limit" if row.status == "FAIL" else "Nearest to its limit"
     return (
         f"{opening}: {statistic_words(row.statistic)} of {quantity_words(row.quantity)} in variant "
-        f"{row.variant}, {_error_text(row)} against a limit of {limit(row)}"
+        f"{row.variant}, {error_text(row)} against a limit of {limit(row)}"
         f"{f' (at {where})' if where else ''}."
     )
 
@@ -112,7 +112,7 @@ def _with_budget(comparison: Comparison, row: MetricRow) -> str:
 
 def _against_limit(row: MetricRow) -> str:
     return (
-        f"{statistic_words(row.statistic)} of {quantity_words(row.quantity)} {_error_text(row)}, "
+        f"{statistic_words(row.statistic)} of {quantity_words(row.quantity)} {error_text(row)}, "
         f"limit {limit(row)}"
     )
 
@@ -162,15 +162,6 @@ def unknowns(comparison: Comparison) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _error_text(row: MetricRow) -> str:
-    """Write the error with as many decimals as it takes to tell it from its limit."""
-    for decimals in range(2, 7):
-        text = measure(row, row.error, decimals)
-        if text.lstrip("+−") != measure(row, row.band, decimals).lstrip("+"):
-            break
-    return text
-
-
 def reason(comparison: Comparison, row: MetricRow) -> str:
     """Return the reason declared with the band that a row judges; "" if none is known."""
     for band in comparison.provenance.bands:
@@ -187,7 +178,7 @@ def _band_table(comparison: Comparison) -> Table:
             row.status,
             quantity_words(row.quantity),
             statistic_words(row.statistic) + (f" ({place(row)})" if place(row) else ""),
-            _error_text(row),
+            error_text(row),
             limit(row),
             rounded(row.ratio, 2) if row.error is not None else ABSENT,
             reason(comparison, row),

@@ -49,6 +49,15 @@ def limit(row: MetricRow) -> str:
     return with_unit(f"{row.band * field.display_factor:.6g}", field.display_unit)
 
 
+def error_text(row: MetricRow) -> str:
+    """Write a judged error with as many decimals as it takes to tell it from its limit."""
+    for decimals in range(2, 7):
+        text = measure(row, row.error, decimals)
+        if text.lstrip("+−") != measure(row, row.band, decimals).lstrip("+"):
+            break
+    return text
+
+
 def spot(i: int | None, j: int | None, t_s: float | None) -> str:
     """Say where and when, e.g. "i = 61, j = 25, t = 0.090 s", with no line break inside an equation."""
     parts = [f"{name}{SPACE}={SPACE}{number}" for name, number in (("i", i), ("j", j)) if number is not None]

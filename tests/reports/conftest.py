@@ -11,6 +11,7 @@ import pytest
 import synthetic_comparison as synthetic
 from playwright.sync_api import Browser, sync_playwright
 
+from reports import build
 from reports.build import write_reports
 
 
@@ -45,6 +46,36 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dict[
     rows = synthetic.write(directory, synthetic.Setup(i=(1, 6, 12), j=(1, 4)))
     write_reports(directory)
     return directory, rows
+
+
+def _limit(quantity: str, limit: float, *variants: str, statistic: str = "rms_error") -> dict[str, Any]:
+    about = {"quantity": quantity, "statistic": statistic, "limit": limit, "reason": "synthetic"}
+    return about | {"variants": list(variants or synthetic.VARIANTS)}
+
+
+@pytest.fixture(scope="session")
+def two_models(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dict[str, Any]]]:
+    """Directory of a comparison of two reduced models with its reports written, and its metrics.
+
+    Of the limits, some are held by the one, the other, both or neither.
+    """
+    bands = [
+        _limit("section_flow_rate", 0.04),
+        _limit("radius", 0.005),
+        _limit("largest_pressure_difference", 0.147, "local", statistic="cycle"),
+    ]
+    setup = synthetic.Setup(n_x=6, n_y=7, i=(1, 3, 6), j=(1, 4), bands=bands, budget=True, costs=True)
+    directory = tmp_path_factory.mktemp("two models")
+    rows = synthetic.write(directory, setup, ("row", "coupled"))
+    write_reports(directory)
+    return directory, rows
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Reports get an empty drawing for every figure: for tests of what is not drawn."""
+    blank = '<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg" width="9pt" height="9pt"></svg>'
+    monkeypatch.setattr(build, "draw", lambda drawings, _: dict.fromkeys(drawings, blank))
 
 
 @pytest.fixture

@@ -30,6 +30,17 @@ UNITS = {
     "sector_flow_rate": "m3 s-1",
 }
 EXPONENTS = np.geomspace(0.5, 50.0, 121)
+COST = {
+    "log": "none.log",
+    "febio_version": "4.11.0",
+    "ended": "normally",
+    "wall_time_s": 949.057,
+    "simulated_s": 1.794,
+    "time_steps": 450,
+    "retries": 2,
+    "iterations": 2211,
+    "equations": 37572,
+}
 RUN = {
     "scheme": "semi_implicit",
     "time_step_s": 0.001,
@@ -60,6 +71,8 @@ class Setup:
         "The stiffness β jumps at φ = 135°.",
     )
     warnings: tuple[str, ...] = ()
+    budget: bool = False
+    costs: bool = False
     bands: list[dict[str, Any]] = field(
         default_factory=lambda: [
             {
@@ -357,9 +370,12 @@ def _change_row(
 ) -> dict[str, Any]:
     """How far both models' changes from the baseline are apart over all cells and states."""
     now, base = setup.variants.index(variant), setup.variants.index(setup.baseline)
-    two, three = (
-        arrays[f"{m}_{quantity}"][now] - arrays[f"{m}_{quantity}"][base] for m in ("rom", "reference")
-    )
+
+    def change(model: str) -> np.ndarray:
+        values = arrays[f"{model}_{quantity}"]
+        return np.asarray(values[now] - values[base])
+
+    two, three = change("rom"), change("reference")
     sizes = {"rom": _rms(two), "reference": _rms(three), "error": _rms(two - three) / _rms(three)}
     return _row(variant, quantity, "change_rms", unit, **sizes)
 
@@ -456,9 +472,22 @@ def _check_rows(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, A
     return rows
 
 
+def _budget_rows(pooled: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Budgets of the root mean squares: half of an error is the inflow's, a twentieth the 3D mesh's."""
+    parts = {"error": 1.0, "inflow": 0.5, "matched": 0.5, "mesh": 0.05, "uncertainty": 0.05}
+    parts |= {"model_low": 0.45, "model_high": 0.55}
+    return [
+        _row(row["variant"], row["quantity"], f"budget_{part}", "1", error=share * row["error"])
+        for row in pooled
+        if row["statistic"] == "rms_error"
+        for part, share in parts.items()
+    ]
+
+
 def metrics(setup: Setup, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
     """Rows as metrics.json holds them, those of the bands last."""
-    rows = _cell_rows(setup, arrays) + _pooled_rows(setup, arrays)
+    pooled = _pooled_rows(setup, arrays)
+    rows = _cell_rows(setup, arrays) + pooled + (_budget_rows(pooled) if setup.budget else [])
     rows += _cycle_rows(setup, arrays) + _check_rows(setup, arrays) + _profile_error_rows(setup, arrays)
     judged = []
     for band in setup.bands:
@@ -482,6 +511,7 @@ def provenance(setup: Setup) -> dict[str, Any]:
     def sha(text: str) -> str:
         return hashlib.sha256(text.encode()).hexdigest()
 
+    run = RUN | {"n_x": setup.n_x, "n_phi": setup.n_phi}
     return {
         "created": "2026-03-04T05:06:07+00:00",
         "command": "python -m validation.compare cases/calcification.yaml --output results/calcification",
@@ -509,7 +539,7 @@ def provenance(setup: Setup) -> dict[str, Any]:
         "warnings": list(setup.warnings),
         "variants": {
             name: {
-                "models": {"rom": RUN | {"n_x": setup.n_x, "n_phi": setup.n_phi}},
+                "models": {"rom": run | ({"simulation_wall_time_s": 0.5} if setup.costs else {})},
                 "reference": {
                     "file": f"reference_data/febio/{name}.xplt",
                     "software": "FEBio",
@@ -518,7 +548,8 @@ def provenance(setup: Setup) -> dict[str, Any]:
                     "elements": 7920,
                     "states": setup.n_time,
                     "coverage": 1.0,
-                },
+                }
+                | ({"cost": COST} if setup.costs else {}),
             }
             for name in setup.variants
         },

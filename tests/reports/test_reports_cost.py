@@ -3,23 +3,12 @@
 import json
 
 import pytest
-from synthetic_comparison import Setup, write
+from synthetic_comparison import COST, Setup, write
 
 from reports.errors import ReportError
 from reports.result.load import load
 from reports.sections.parts import cost
 
-COST = {
-    "log": "none.log",
-    "febio_version": "4.11.0",
-    "ended": "normally",
-    "wall_time_s": 949.057,
-    "simulated_s": 1.794,
-    "time_steps": 450,
-    "retries": 2,
-    "iterations": 2211,
-    "equations": 37572,
-}
 RECORD = {
     "file": "axis.txt",
     "columns": ["x", "nfvx"],

@@ -69,7 +69,11 @@ def _band(comparison: Comparison, place: Place, band: tuple[str, str, float | No
 
 
 def _over(row: MetricRow | None) -> str:
-    return ABSENT if row is None or row.error is None else rounded(row.ratio, 3)
+    """Error over its limit with as many digits as it takes to tell it from 1."""
+    if row is None or row.error is None:
+        return ABSENT
+    texts = (rounded(row.ratio, digits) for digits in range(3, 8))
+    return next((text for text in texts if text.rstrip("0") != "1."), rounded(row.ratio, 3))
 
 
 def _shade(comparison: Comparison, row: MetricRow) -> Shade:

@@ -86,6 +86,8 @@ def place_beyond(comparison: Comparison, row: MetricRow) -> str:
     if calcified.any():
         away = np.maximum(x[calcified].min() - x, 0.0) + np.maximum(x - x[calcified].max(), 0.0)
         reach = float(away[sections].max())
+        if reach == 0.0:
+            return f"{share}, all along the calcification"
         if reach < _NEAR * float(away.max()):
             return f"{share}, all within {fixed(reach, 1)}{SPACE}mm of the calcification"
     first, last = x[sections][[0, -1]]
