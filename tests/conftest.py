@@ -4,8 +4,9 @@ import os
 
 from hypothesis import settings
 
-settings.register_profile("ci", derandomize=True, deadline=None)
-settings.register_profile("explore", deadline=None)
+# no deadline: the first example may compile kernels
+settings.register_profile("ci", derandomize=True, deadline=None, max_examples=50)
+settings.register_profile("explore", deadline=None, max_examples=50)
 settings.load_profile("ci" if os.environ.get("CI") else "explore")
 
 # Each process takes the next file when it has done one. The first two compile most kernels, and not the same.

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import settings
 from small_case import bands, small_case, written
 from tube_plot import write_tube
 from tubes import SHORT
@@ -13,10 +12,6 @@ from tubes import SHORT
 from validation.compare import command as compare
 
 os.environ["ARTERIAL_ROM_CACHE"] = ""  # tests that replace parts of the code must not find results of others
-
-# no deadline: the first example may compile kernels
-settings.register_profile("validation", deadline=None, max_examples=50)
-settings.load_profile("validation")
 
 
 @pytest.fixture
