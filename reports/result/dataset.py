@@ -97,8 +97,7 @@ def read_profiles(
 ) -> tuple[xr.Dataset, xr.Dataset]:
     """Read all models' axial velocity at some cells of an opened comparison.nc.
 
-    Every chunk of the file is read once, whole, a variant at a time: to pick cells from the file itself
-    would unpack it again for each of them.
+    A chunk of the file holds all states of some sections, so that little is unpacked that is not wanted.
 
     Parameters
     ----------
@@ -120,17 +119,17 @@ def read_profiles(
     Raises
     ------
     ReportError
-        If a value anywhere is no finite number, though the reference is no sparse one.
+        If a value read is no finite number, though the reference is no sparse one.
     """
     rays, sections = {}, {}
     for name in (variable(of, "axial_velocity") for of in (REFERENCE, *reduced_models(path, dataset))):
         of_cells, of_sections = [], []
-        for part in dataset[name]:
-            part.load()
+        for whole in dataset[name]:
+            part = whole.isel(x=columns).load()
             if not (name.startswith("reference_") and dataset.attrs.get("sparse_reference")):
                 _check_finite(path, part)
-            of_cells.append(part.isel(x=columns, phi=rows).copy())  # a copy lets the whole go
-            of_sections.append(part.isel(time=state, x=columns).copy())
+            of_cells.append(part.isel(phi=rows))
+            of_sections.append(part.isel(time=state))
         rays[name], sections[name] = xr.concat(of_cells, "variant"), xr.concat(of_sections, "variant")
     return xr.Dataset(rays), xr.Dataset(sections)
 
