@@ -165,11 +165,12 @@ def _figure(comparison: Comparison) -> Figure:
             maps = [_maps(view, name, "rom") for name in comparison.variants]
             lines.append((headed(comparison, model), maps))
     fields = comparison.fields
+    of_2d = " and as it follows from 2D" if len(lines) > 1 else ""
     return Figure(
         "dominance-figure",
-        f"Largest {RATIOS[RADIAL]} over the ray and the cycle, in 3D and as it follows from 2D. The last "
-        "cell is left out: the outlet's condition makes what is there.",
-        f"Maps over x and φ of the largest {RATIOS[RADIAL]} in 3D and 2D for {listed(comparison.variants)}.",
+        f"Largest {RATIOS[RADIAL]} over the ray and the cycle, in 3D{of_2d}. The last cell is left out: the "
+        "outlet's condition makes what is there.",
+        f"Maps over x and φ of the largest {RATIOS[RADIAL]} in 3D{of_2d} for {listed(comparison.variants)}.",
         partial(
             dominance_map,
             1e3 * fields["x"].values,

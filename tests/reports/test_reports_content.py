@@ -2,6 +2,7 @@ import csv
 import dataclasses
 import io
 import json
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +11,10 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
+from cases.fields import FIELDS
 from reports.blocks import Bullets, Figure, Paragraph, Section, Subsection, Table, Warnings
 from reports.result.load import load
-from reports.sections import assumptions, change, cycle, provenance, velocity, verdict
+from reports.sections import answer, assumptions, change, cycle, provenance, velocity, verdict
 
 Rows = list[dict[str, Any]]
 
@@ -119,10 +121,11 @@ def test_the_checks_of_the_3d_side_are_shown(finished: tuple[Path, Rows]) -> Non
 
 
 def _warnings(directory: Path) -> tuple[str, ...]:
-    section = verdict.section(load(directory))
-    assert [type(block) for block in section.blocks[:2]] == [Paragraph, Warnings]
-    assert isinstance(section.blocks[1], Warnings)
-    return section.blocks[1].items
+    section = answer.section(load(directory))
+    kinds = [type(block) for block in section.blocks]
+    assert kinds[:2] == [Bullets, Warnings], "before any figure or table"
+    (found,) = _blocks(section, Warnings)
+    return found.items
 
 
 @pytest.mark.parametrize(
@@ -151,7 +154,7 @@ def test_a_cycle_that_is_not_covered_is_a_warning(tmp_path: Path, small: synthet
 
 
 def test_without_doubt_there_is_no_warning(finished: tuple[Path, Rows]) -> None:
-    assert not _blocks(verdict.section(load(finished[0])), Warnings)
+    assert not _blocks(answer.section(load(finished[0])), Warnings)
 
 
 def test_an_older_result_without_the_newer_keys_is_shown(tmp_path: Path, small: synthetic.Setup) -> None:
@@ -164,8 +167,8 @@ def test_an_older_result_without_the_newer_keys_is_shown(tmp_path: Path, small: 
     for band in record["bands"]:
         band["variants"] = None
     path.write_text(json.dumps(record))
+    assert not _blocks(answer.section(load(tmp_path)), Warnings)
     section = verdict.section(load(tmp_path))
-    assert not _blocks(section, Warnings)
     assert [row[1] for row in _table(section, "trust").rows[-2:]] == ["—", "—"]
     assert all(row[-1] for row in _table(section, "bands").rows)
 
@@ -301,38 +304,51 @@ def test_without_a_baseline_no_change_is_claimed(tmp_path: Path, small: syntheti
     assert "ratio" not in [column.group for column in _table(section, "cycle-quantities").columns]
 
 
-def test_a_wall_that_is_the_same_all_around_shows_one_row_and_says_so(curves: Section) -> None:
-    none, local = curves.blocks[1], curves.blocks[3]
-    assert isinstance(none, Subsection)
-    assert isinstance(local, Subsection)
-    assert "one row stands for all: j = 1" in none.blocks[0].text  # type: ignore[union-attr]
-    assert "varies around the artery by less than 0.01\u00a0μm in 3D" in none.blocks[0].text  # type: ignore[union-attr]
-    assert len([b for b in none.blocks if isinstance(b, Figure)]) == 1
-    assert len([b for b in local.blocks if isinstance(b, Figure)]) == 4
+def test_a_wall_that_is_the_same_all_around_shows_one_row(curves: Section) -> None:
+    figures = {figure.key: figure for figure in _blocks(curves, Figure)}
+    assert list(figures) == ["cycle-1-1", "cycle-2-1", "cycle-3-1"]
+    rows = {
+        key: dict.fromkeys((line["quantity"], line["row"]) for line in csv.DictReader(io.StringIO(of.csv)))
+        for key, of in figures.items()
+    }
+    alike = [("pressure", "j = 1, φ = 22°"), ("radius", "j = 1, φ = 22°"), ("section_flow_rate", "section")]
+    assert list(rows["cycle-1-1"]) == list(rows["cycle-2-1"]) == alike
+    both = [("radius", "sector_flow_rate"), ("j = 1, φ = 22°", "j = 4, φ = 158°")]
+    assert set(rows["cycle-3-1"]) == {*alike, *product(*both)}
+    assert "flow rate through one sector" in figures["cycle-3-1"].caption
+    assert "flow rate through one sector" not in figures["cycle-1-1"].caption
 
 
 def test_a_figures_data_are_the_models_own(finished: tuple[Path, Rows], curves: Section) -> None:
     directory, _ = finished
-    figure = next(f for f in _blocks(curves, Figure) if "radius" in f.key)
+    figure = _blocks(curves, Figure)[2]
     with xr.open_dataset(directory / "comparison.nc", decode_times=False) as data:
-        states = data.sizes["time"]
         local = data.sel(variant="local")
         rows = list(csv.DictReader(io.StringIO(figure.csv)))
-        assert len(rows) == states * 3 * 2
-        for row in rows[:: states - 1]:
-            at = {"x": int(row["i"]) - 1, "phi": int(row["j"]) - 1}
-            curve = local["reference_radius"].isel(at)
-            state = int(np.abs(data["time"].values - float(row["t_s"])).argmin())
-            assert float(row["reference"]) == pytest.approx(float(curve[state]), rel=1e-8)
+        assert len(rows) == data.sizes["time"] * 3 * (2 * 2 + 2)
+        for row in rows[::7]:
+            field = FIELDS[row["quantity"]]
+            at = {"x": {"1": 0, "2": 5, "3": 11}[row["column"][0]]}
+            at |= {} if row["row"] == "section" else {"phi": int(row["row"][4]) - 1}
+            for model, column in (("reference", "reference"), ("rom", "rom")):
+                curve = local[f"{model}_{field.name}"].isel(at)
+                there = curve.sel(time=float(row["time into the cycle (s)"]), method="nearest")
+                assert float(row[column]) == pytest.approx(field.display_factor * float(there), rel=1e-8)
+            assert row["unit"] == field.display_unit
 
 
 def test_a_caption_names_where_the_profiles_are_farthest_apart(finished: tuple[Path, Rows]) -> None:
     comparison = load(finished[0])
     figure = _blocks(velocity.section(comparison), Figure)[0]
-    one = comparison.profiles.sel(variant="none").isel(phi=0)
-    difference = (one["rom_axial_velocity"] - one["reference_axial_velocity"]).values
-    largest = difference.flat[np.abs(difference).argmax()]
-    assert f"{100 * largest:+.2f}".replace("-", "−") in figure.caption
+    first = comparison.profiles.isel(time=comparison.states[0])
+    difference = (first["rom_axial_velocity"] - first["reference_axial_velocity"]).values
+    at = np.unravel_index(int(np.abs(difference).argmax()), difference.shape)
+    x, phi = 1e3 * comparison.x[at[1]], np.degrees(comparison.phi[at[2]])
+    y = float(comparison.profiles["y"][at[3]])
+    assert (
+        f"2D {100 * difference[at]:+.2f} cm/s ({comparison.variants[at[0]]}, x = {x:.1f} mm, "
+        f"φ = {phi:.0f}°, r/R = {y:.2f})"
+    ).replace("-", "−") in figure.caption.replace("\u00a0", " ")
     assert figure.alt
 
 
@@ -343,8 +359,9 @@ def test_many_cells_are_spread_over_several_figures_and_tables(
     comparison = load(tmp_path)
     keys = [table.key for table in _blocks(change.section(comparison), Table)]
     assert [key for key in keys if key.startswith("section-flow")] == ["section-flow-1", "section-flow-6"]
-    figures = _blocks(velocity.section(comparison), Figure)
-    assert ["i = 1, 2, 3, 4 and 5" in figures[0].caption, "i = 6 and 7" in figures[1].caption] == [True, True]
+    figures = [f for f in _blocks(velocity.section(comparison), Figure) if f.key.startswith("profiles")]
+    columns = [{line["column"][0] for line in csv.DictReader(io.StringIO(figure.csv))} for figure in figures]
+    assert columns == [set("12345"), set("67")]
 
 
 def test_rows_without_figures_leave_gaps_not_errors(tmp_path: Path, small: synthetic.Setup) -> None:
@@ -362,7 +379,7 @@ def test_settings_are_named_in_words_with_their_unit(tmp_path: Path, small: synt
     synthetic.write(tmp_path, small)
     path = tmp_path / "provenance.json"
     path.write_text(path.read_text().replace('"scheme"', '"viscosity_Pa_s": 0.0035, "scheme"'))
-    table = _table(provenance.section(load(tmp_path)), "rom")
+    table = _table(provenance.settings(load(tmp_path)), "rom")
     assert ("viscosity (Pa s)", "0.0035") in table.rows
     assert ("time step (s)", "0.001") in table.rows
 
@@ -387,7 +404,7 @@ def test_rows_that_the_report_does_not_know_are_shown(tmp_path: Path, small: syn
     comparison = load(tmp_path)
     cycle_rows = _table(change.section(comparison), "cycle-quantities").rows
     assert [row[3:5] for row in cycle_rows if row[0] == "wall shear stress"] == [("1.200", "1.500")]
-    found = {row[1:3]: row[3:] for row in _table(assumptions.section(comparison), "further").rows}
+    found = {row[1:3]: row[3:] for row in _table(assumptions.others(comparison), "further").rows}
     said = {key: tuple(text.replace("\u00a0", " ") for text in texts) for key, texts in found.items()}
     assert said["wall shear stress", "largest"] == ("4.500 Pa", "—", "—", "i = 3, j = 2")
     assert said["lumen radius", "waveform correlation"] == ("—", "—", "+3.10 %", "—")

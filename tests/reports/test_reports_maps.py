@@ -2,6 +2,7 @@ import csv
 import dataclasses
 import io
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,7 @@ import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
 
-from reports.blocks import Figure, Paragraph, Section, Subsection, Table
-from reports.build import write_reports
+from reports.blocks import Figure, Paragraph, Section, Table
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
 from reports.result.load import load
 from reports.sections import assumptions, dominance, exponents, maps
@@ -19,14 +19,14 @@ from reports.sections import assumptions, dominance, exponents, maps
 Rows = list[dict[str, Any]]
 
 
-def _figures(section: Section) -> list[Figure]:
-    return [
-        block
-        for part in section.blocks
-        if isinstance(part, Subsection)
-        for block in part.blocks
-        if isinstance(block, Figure) and block.key.endswith("-figure")
-    ]
+def _figure(section: Section | None) -> Figure:
+    assert section
+    (figure,) = (block for block in section.blocks if isinstance(block, Figure))
+    return figure
+
+
+def _plain(figure: Figure) -> str:
+    return figure.caption.replace("\u00a0", " ")
 
 
 def _tables(section: Section) -> dict[str, Table]:
@@ -37,47 +37,84 @@ def _number(text: str) -> float:
     return float(text.replace("−", "-"))
 
 
-@pytest.mark.parametrize("build", [maps.section, exponents.section])
-def test_the_data_of_maps_are_all_cells_of_the_models(finished: tuple[Path, Rows], build: Any) -> None:
-    directory, _ = finished
-    figure = _figures(build(load(directory)))[2]
-    rows = list(csv.DictReader(io.StringIO(figure.csv)))
-    with xr.open_dataset(directory / "comparison.nc", decode_times=False) as data:
-        local = data.sel(variant="local")
-        assert len(rows) % (data.sizes["x"] * data.sizes["phi"]) == 0
-        for row in rows[::37]:
-            at = local.isel(x=int(row["i"]) - 1, phi=int(row["j"]) - 1).sel(
-                time=float(row["t_s"]), method="nearest"
+def _cells(figure: Figure) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(figure.csv)))
+
+
+def _percent(data: xr.Dataset, model: str, quantity: str) -> np.ndarray:
+    """2D − 3D at the first named instant in percent of 3D, (variant, x, phi)."""
+    now = data.sel(time=data.attrs["compare_times_s"][0], method="nearest")
+    return np.asarray(100 * (now[f"{model}_{quantity}"] / now[f"reference_{quantity}"] - 1))
+
+
+@pytest.fixture(scope="module")
+def data(two_models: tuple[Path, Rows]) -> xr.Dataset:
+    """All models' fields."""
+    with xr.open_dataset(two_models[0] / "comparison.nc", decode_times=False) as opened:
+        return opened.load()
+
+
+def test_the_data_of_the_maps_are_all_cells_in_percent(
+    two_models: tuple[Path, Rows], data: xr.Dataset
+) -> None:
+    rows = _cells(_figure(maps.section(load(two_models[0]))))
+    assert len(rows) == data.sizes["x"] * data.sizes["phi"]
+    for v, variant in enumerate(synthetic.VARIANTS):
+        for model in ("row", "coupled"):
+            for quantity in ("radius", "sector_flow_rate"):  # those that limits judge
+                expected = _percent(data, model, quantity)[v]
+                for row in rows:
+                    at = int(row["i"]) - 1, int(row["j"]) - 1
+                    said = float(row[f"{variant} {model} {quantity} percent"])
+                    assert said == pytest.approx(expected[at], rel=1e-4, abs=1e-6)
+                    assert float(row["x_m"]) == pytest.approx(float(data["x"][at[0]]), rel=1e-5)
+                    assert float(row["phi_rad"]) == pytest.approx(float(data["phi"][at[1]]), rel=1e-5)
+
+
+def test_the_data_of_the_exponents_are_all_cells(two_models: tuple[Path, Rows], data: xr.Dataset) -> None:
+    rows = _cells(_figure(exponents.section(load(two_models[0]))))
+    now = data.sel(time=data.attrs["compare_times_s"][0], method="nearest")
+    for column, name in (("3D", "reference"), ("coupled", "coupled")):
+        found = [float(row[f"local {column}"]) for row in rows]
+        expected = now[f"{name}_profile_exponent"].sel(variant="local").values.ravel()
+        assert found == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_caption_names_where_the_maps_are_farthest_apart(
+    two_models: tuple[Path, Rows], data: xr.Dataset
+) -> None:
+    caption = _plain(_figure(maps.section(load(two_models[0]))))
+    for quantity, label in (
+        ("radius", "lumen radius"),
+        ("sector_flow_rate", "flow rate through one sector"),
+    ):
+        for model in ("row", "coupled"):
+            percent = _percent(data, model, quantity)
+            said = re.search(
+                rf"{label} ([+−][\d.]+) % \({model}, (\w+), x = ([\d.]+) mm, φ = (\d+)°\)", caption
             )
-            for name in ("x", "phi"):
-                unit = {"x": "x_m", "phi": "phi_rad"}[name]
-                assert float(row[unit]) == pytest.approx(float(at[name]), rel=1e-5)
-            for name in ("rom_profile_exponent", "reference_profile_exponent"):
-                assert float(row[name]) == pytest.approx(float(at[name]), rel=1e-5)
+            assert said
+            assert abs(_number(said[1])) == pytest.approx(np.abs(percent).max(), abs=0.051)
+            i = int(np.abs(1e3 * data["x"].values - float(said[3])).argmin())
+            j = int(np.abs(np.degrees(data["phi"].values) - float(said[4])).argmin())
+            there = percent[synthetic.VARIANTS.index(said[2]), i, j]
+            assert there == pytest.approx(_number(said[1]), abs=0.051)
 
 
-def test_a_caption_names_where_the_maps_are_farthest_apart(finished: tuple[Path, Rows]) -> None:
-    comparison = load(finished[0])
-    figure = _figures(maps.section(comparison))[1]
-    data = comparison.maps.sel(variant="axisymmetric").isel(time=0)
-    difference = (data["rom_pressure"] - data["reference_pressure"]).values
-    i, j = np.unravel_index(np.abs(difference).argmax(), difference.shape)
-    said = figure.caption.replace("\u00a0", " ")
-    assert f"pressure {difference[i, j]:+.0f} Pa (i = {i + 1}, j = {j + 1})".replace("-", "−") in said
-    assert "Framed: the calcified cells." in said
-
-
-def test_without_calcification_nothing_is_outlined(finished: tuple[Path, Rows]) -> None:
-    assert "Framed" not in _figures(maps.section(load(finished[0])))[0].caption
+def test_scales_of_the_maps_end_at_the_limits(two_models: tuple[Path, Rows], tmp_path: Path) -> None:
+    caption = _plain(_figure(maps.section(load(two_models[0]))))
+    assert "scales end at the limits: lumen radius ±0.5 % and flow rate through one sector ±4 %." in caption
+    synthetic.write(tmp_path, synthetic.Setup(variants=("local",), baseline="", bands=[]))
+    caption = _plain(_figure(maps.section(load(tmp_path))))
+    assert "lumen radius ±1 % (no limit)" in caption
 
 
 def test_the_worst_fit_is_named(finished: tuple[Path, Rows]) -> None:
     comparison = load(finished[0])
-    errors = comparison.maps["reference_profile_error"].sel(variant="local").values
-    caption = _figures(exponents.section(comparison))[2].caption.replace("\u00a0", " ")
+    errors = comparison.maps["reference_profile_error"].values
     assert (
-        f"by {100 * np.median(errors):.2f} % in the median, by {100 * errors.max():.2f} % at most" in caption
-    )
+        f"by {100 * np.median(errors):.2f} % in the median, by {100 * errors.max():.2f} % at most"
+    ) in _plain(_figure(exponents.section(comparison)))
 
 
 def test_an_infinite_exponent_is_drawn_and_said_not_to_be_compared(
@@ -89,16 +126,16 @@ def test_an_infinite_exponent_is_drawn_and_said_not_to_be_compared(
         arrays[f"{model}_profile_exponent"][:] = np.inf
     arrays["reference_profile_error"][:] = np.nan
     synthetic.dataset(small, arrays).to_netcdf(tmp_path / "comparison.nc")
-    comparison = load(tmp_path)
-    assert "γ is nowhere finite" in _figures(exponents.section(comparison))[0].caption
-    assert "velocity-profile exponent nowhere finite" in _figures(maps.section(comparison))[0].caption
+    figure = _figure(exponents.section(load(tmp_path)))
+    assert "γ is nowhere finite" in figure.caption
+    assert figure.drawing()
 
 
 def test_without_instants_there_are_no_maps(tmp_path: Path, small: synthetic.Setup) -> None:
     synthetic.write(tmp_path, dataclasses.replace(small, time_names=()))
     comparison = load(tmp_path)
-    for section in (maps.section(comparison), exponents.section(comparison)):
-        assert [type(block) for block in section.blocks] == [Paragraph]
+    assert maps.section(comparison) is None
+    assert exponents.section(comparison) is None
 
 
 def test_cells_are_images_within_a_drawing_that_does_not_change() -> None:
@@ -115,7 +152,7 @@ def test_cells_are_images_within_a_drawing_that_does_not_change() -> None:
 def test_dominance_tables_hold_the_metrics(finished: tuple[Path, Rows]) -> None:
     directory, rows = finished
     comparison = load(directory)
-    tables = _tables(dominance.section(comparison))
+    tables = _tables(dominance.tables(comparison))
     values = {
         (row["quantity"], row["variant"], row["i"], row["j"]): row["reference"]
         for row in rows
@@ -128,10 +165,13 @@ def test_dominance_tables_hold_the_metrics(finished: tuple[Path, Rows]) -> None:
             for i, text in zip(comparison.i, row[2:], strict=True):
                 value = values[quantity, row[0], i, int(row[1])]
                 assert _number(text) == pytest.approx(value, abs=5.001e-4)
-    worst = max(row["reference"] for row in rows if row["quantity"] == "axial_dominance_radial")
+    ratios = comparison.fields["reference_axial_dominance_radial"].values[:, :-1]  # the outlet's is no flow's
     sentence = dominance.section(comparison).blocks[0]
     assert isinstance(sentence, Paragraph)
-    assert f"not everywhere small beside v_x: the largest ratio, |v_r|/v_x = {worst:.3f}" in sentence.text
+    assert (
+        f"not everywhere small beside v_x: the largest ratio before the outlet, |v_r|/v_x = {ratios.max():.3f}"
+        in sentence.text
+    )
 
 
 @pytest.mark.parametrize(("beside", "told"), [(True, True), (False, False)])
@@ -154,9 +194,13 @@ def test_where_the_2d_model_has_its_largest_radial_velocity(
     section = dominance.section(comparison)
     assert isinstance(section.blocks[0], Paragraph)
     text = section.blocks[0].text.replace("\u00a0", " ")
-    assert f"largest in variant local at i = {i}, j = {j + 1}, |v_r|/v_x = 1.217" in text
+    x, phi = (float(comparison.fields[axis][at]) for axis, at in (("x", i - 1), ("phi", j)))
+    where = f"x = {1e3 * x:.1f} mm, φ = {np.degrees(phi):.0f}°"
+    assert f"largest in variant local at {where}, |v_r|/v_x = 1.217" in text
     assert ("jumps from one cell to the next" in text) == told
-    line = next(row for row in _tables(section)["largest-dominance"].rows if row[0] == "local")
+    line = next(
+        row for row in _tables(dominance.tables(comparison))["largest-dominance"].rows if row[0] == "local"
+    )
     assert [line[3], line[4].replace("\u00a0", " ")] == ["1.217", f"i = {i}, j = {j + 1}"]
     figures = _tables(assumptions.section(comparison))["assumption-figures"]
     assert next(row for row in figures.rows if row[0] == "no radial velocity")[-1] == "1.217"
@@ -179,13 +223,28 @@ def test_an_older_result_without_dominance_is_shown(tmp_path: Path, small: synth
     rows = synthetic.write(tmp_path, small)
     kept = [row for row in rows if "dominance" not in row["quantity"]]
     (tmp_path / "metrics.json").write_text(json.dumps(kept))
+    names = [f"reference_axial_dominance_{way}" for way in ("radial", "azimuthal")]
+    with xr.open_dataset(tmp_path / "comparison.nc", decode_times=False) as opened:
+        without = opened.load().drop_vars(names)
+    (tmp_path / "comparison.nc").unlink()
+    without.to_netcdf(tmp_path / "comparison.nc")
     section = dominance.section(load(tmp_path))
     assert [type(block) for block in section.blocks] == [Paragraph]
+    assert section.blocks[0].text.endswith("How small they are in 3D was not measured.")
+    assert dominance.tables(load(tmp_path)) is None
 
 
-def test_the_sections_are_in_the_order_of_reading(tmp_path: Path, small: synthetic.Setup) -> None:
-    synthetic.write(tmp_path, small)
-    page = write_reports(tmp_path)[0].read_text(encoding="utf-8")
-    keys = ("verdict", "change", "cycle", "profiles", "exponents", "maps", "dominance", "assumptions")
-    places = [page.index(f'<h2 id="{key}">') for key in (*keys, "provenance")]
-    assert places == sorted(places)
+def test_dominance_is_drawn_of_the_models_that_have_it(two_models: tuple[Path, Rows]) -> None:
+    comparison = load(two_models[0])
+    figure = _figure(dominance.section(comparison))
+    assert set(_cells(figure)[0]) == {"i", "j", "x_m", "phi_rad", "none 3D", "axisymmetric 3D", "local 3D"}
+    assert "as it follows from 2D" not in figure.caption
+
+
+def test_the_sections_are_in_the_order_of_reading(two_models: tuple[Path, Rows]) -> None:
+    page = (two_models[0] / "report.html").read_text(encoding="utf-8")
+    found = re.findall(r'<h2 id="([\w-]+)">', page)
+    read = ["answer", "overview", "moved", "profiles", "agreement", "maps", "exponents", "dominance"]
+    read += ["assumptions", "budget", "artery", "provenance"]
+    assert found == [*read, "verdict", "budget-tables", *found[len(read) + 2 :]]
+    assert found[-1] == "settings"

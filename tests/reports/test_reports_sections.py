@@ -13,7 +13,7 @@ import synthetic_comparison as synthetic
 from reports.blocks import Paragraph
 from reports.build import write_reports
 from reports.result.load import Comparison, load
-from reports.sections import cycle, verdict
+from reports.sections import overview, verdict
 from reports.sections.content import report
 from reports.sections.declaration import Blocks, declared, result_file
 from reports.sections.order import SECTIONS
@@ -28,10 +28,10 @@ def section(comparison: Comparison) -> Blocks:
 
 @pytest.fixture
 def added() -> Iterator[int]:
-    """Its number: it stands before the curves over the cycle, and no error budget stands there."""
-    at = SECTIONS.index(cycle.section)
+    """Its number: it stands before the overview, behind the answer."""
+    at = SECTIONS.index(overview.section)
     SECTIONS.insert(at, section)
-    yield at
+    yield at + 1
     SECTIONS.remove(section)
 
 
@@ -45,9 +45,9 @@ def test_an_added_section_is_found_at_its_place(
     headings = re.findall(r"<h2 id=\"([^\"]+)\">(\d+)\. ([^<]+)</h2>", page)
     assert [int(number) for _, number, _ in headings] == list(range(1, len(headings) + 1))
     assert (headings[added - 1][0], headings[added - 1][2]) == ("narrowest", TITLE)
-    assert headings[added][2] == html.escape(cycle.section.title)
+    assert headings[added][2] == html.escape(overview.section.title)
     assert "<p>It is at i = 6.</p>" in page
-    assert f"{added} {TITLE} It is at i = 6. {added + 1} {cycle.section.title}" in pdf_text(
+    assert f"{added} {TITLE} It is at i = 6. {added + 1} {overview.section.title}" in pdf_text(
         tmp_path / "report.pdf"
     )
     outline = [
@@ -62,7 +62,7 @@ def test_a_section_without_what_it_needs_is_left_out(
     synthetic.write(tmp_path, small)
     titles = [shown.title for shown in report(load(tmp_path)).sections]
     assert TITLE not in titles
-    assert titles[added - 1] == cycle.section.title
+    assert titles[added - 1] == overview.section.title
 
 
 @pytest.mark.parametrize("unknown", [(), ("That nothing is known.",)])
