@@ -16,15 +16,21 @@ from reports.build import write_reports
 
 
 @pytest.fixture(scope="session")
-def pdf_text() -> Callable[[Path], str]:
-    """Text of a PDF with single spaces between words."""
+def pdf_pages() -> Callable[[Path], list[str]]:
+    """Text of each page of a PDF with single spaces between words."""
 
     @cache
-    def text(content: bytes) -> str:
+    def texts(content: bytes) -> list[str]:
         pages = pypdf.PdfReader(io.BytesIO(content)).pages
-        return re.sub(r"\s+", " ", " ".join(page.extract_text() for page in pages))
+        return [re.sub(r"\s+", " ", page.extract_text()) for page in pages]
 
-    return lambda path: text(path.read_bytes())
+    return lambda path: texts(path.read_bytes())
+
+
+@pytest.fixture(scope="session")
+def pdf_text(pdf_pages: Callable[[Path], list[str]]) -> Callable[[Path], str]:
+    """Text of a PDF with single spaces between words."""
+    return lambda path: " ".join(pdf_pages(path))
 
 
 @pytest.fixture(scope="session")

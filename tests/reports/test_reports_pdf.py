@@ -1,13 +1,17 @@
 """The PDF of two models as a document: its length, headings, contents, attachments and bytes."""
 
+import io
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pypdf
 import pytest
 import synthetic_comparison as synthetic
+import typst
+from PIL import Image
 
 from reports.blocks import Interactive, Section, Subsection
 from reports.build import write_reports
@@ -35,15 +39,16 @@ def _outline(reader: pypdf.PdfReader) -> list[tuple[str, int]]:
     return found
 
 
-def test_what_is_read_has_few_pages_and_the_appendix_begins_one(reader: pypdf.PdfReader) -> None:
+def test_what_is_read_has_few_pages_and_the_appendix_begins_one(
+    reader: pypdf.PdfReader, two_models: Finished, pdf_pages: Callable[[Path], list[str]]
+) -> None:
     outline = _outline(reader)
     first, page = next((title, page) for title, page in outline if title.startswith("A "))
     assert first == "A Bands and checks"
     assert page - 1 <= MOST_PAGES
     assert len(reader.pages) > page
     assert all(before < page for title, before in outline if title[0].isdigit())
-    top = re.sub(r"\s+", " ", reader.pages[page - 1].extract_text())
-    assert top.startswith(first)
+    assert pdf_pages(two_models[0] / "report.pdf")[page - 1].startswith(first)
 
 
 def _printed(section: Section) -> Iterator[tuple[str, bool]]:
@@ -85,10 +90,12 @@ def test_figures_and_tables_are_numbered_in_order(
         assert len(numbers) > 10
 
 
-def test_each_page_says_whose_it_is(reader: pypdf.PdfReader) -> None:
-    for number, page in enumerate(reader.pages, start=1):
+def test_each_page_says_whose_it_is(
+    reader: pypdf.PdfReader, two_models: Finished, pdf_pages: Callable[[Path], list[str]]
+) -> None:
+    texts = pdf_pages(two_models[0] / "report.pdf")
+    for number, (page, text) in enumerate(zip(reader.pages, texts, strict=True), start=1):
         assert tuple(round(float(n)) for n in page.mediabox[2:]) == (595, 842)
-        text = re.sub(r"\s+", " ", page.extract_text())
         assert f"page {number} of {len(reader.pages)}" in text
         assert "synthetic · commit 012345678 · 2026-03-04" in text
 
@@ -101,8 +108,38 @@ def test_the_case_file_and_the_data_of_every_figure_are_attached(
     assert attached == expected | {"case.yaml": synthetic.CASE_YAML}
 
 
-def test_same_input_same_bytes(two_models: Finished) -> None:
+@pytest.fixture(scope="module")
+def again(two_models: Finished) -> tuple[bool, list[bytes]]:
+    """Whether the same reports are written again, and the PDF's pages as small pictures."""
     written = [two_models[0] / name for name in ("report.html", "report.pdf")]
     before = [path.read_bytes() for path in written]
-    assert list(write_reports(two_models[0])) == written
-    assert [path.read_bytes() for path in written] == before
+    pages: list[bytes] = []
+    compile_pdf = typst.compile
+
+    def also_as_pictures(source: Path, **options: Any) -> bytes:
+        kept = {name: options[name] for name in ("root", "font_paths", "ignore_system_fonts")}
+        pages.extend(compile_pdf(source, format="png", ppi=30.0, **kept))  # type: ignore[arg-type]
+        made = compile_pdf(source, **options)
+        assert isinstance(made, bytes)
+        return made
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(typst, "compile", also_as_pictures)
+        write_reports(two_models[0])
+    return [path.read_bytes() for path in written] == before, pages
+
+
+def test_same_input_same_bytes(again: tuple[bool, list[bytes]]) -> None:
+    assert again[0]
+
+
+def test_no_page_is_half_empty(again: tuple[bool, list[bytes]], reader: pypdf.PdfReader) -> None:
+    """But the last of what is read, and those of the appendix where the next thing, whole, did not fit."""
+    appendix = next(page for title, page in _outline(reader) if title.startswith("A "))
+    filled = {}
+    for number, page in enumerate(again[1], start=1):
+        picture = np.asarray(Image.open(io.BytesIO(page)).convert("L"))
+        body = picture[: int(0.925 * picture.shape[0])]  # above the footer
+        filled[number] = np.flatnonzero((body < 200).any(axis=1)).max() / body.shape[0]
+    assert [n for n in range(1, appendix - 1) if filled[n] < 0.6] == [], filled
+    assert [n for n in range(appendix, len(filled)) if filled[n] < 0.45] == [], filled
