@@ -4,14 +4,17 @@ from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import Tag, create_model, model_validator
+from pydantic import Tag, create_model, field_validator, model_validator
 
 from cases.sections.base import Section
 from cases.sections.wall_laws import LAWS
-from cases.sections.wall_laws.law import PoissonRatio, WallLaw
-from cases.values.kinds import one_of, refused, registered
+from cases.sections.wall_laws.law import CompressibleRatio, PoissonRatio, WallLaw
+from cases.sections.wall_laws.saint_venant_kirchhoff import SaintVenantKirchhoffWall
+from cases.values.kinds import Modulus, Pressure, counted, one_of, refused, registered
 
 Supports = Literal["quarters", "free"]
+MOST_ELEMENTS = 1000  # in one direction of a solid wall
+ElementCount = Annotated[int, counted(MOST_ELEMENTS)]
 
 
 class MembraneWall(Section):
@@ -72,10 +75,42 @@ MembraneOnLaws = create_model(
 )
 
 
+class SolidWall(Section):
+    """A wall that is a solid of finite elements, of Saint Venant–Kirchhoff material under finite strain.
+
+    Attributes
+    ----------
+    youngs_modulus : float
+        E of the healthy wall in Pa.
+    poisson_ratio : float
+        ν in [0, 0.5).
+    reference_pressure : float
+        Transmural pressure P₀ of the unloaded radius in Pa.
+    elements : tuple of int
+        Trilinear elements around (a multiple of 4, from 8 on), through the wall and along.
+    """
+
+    law: Literal["solid"]
+    youngs_modulus: Modulus
+    poisson_ratio: CompressibleRatio
+    reference_pressure: Pressure = 0.0
+    elements: tuple[ElementCount, ElementCount, ElementCount] = (24, 3, 30)
+
+    @field_validator("elements")
+    @classmethod
+    def _in_quarters(cls, elements: tuple[int, int, int]) -> tuple[int, int, int]:
+        if elements[0] < 8 or elements[0] % 4:
+            raise refused(elements[0], "a multiple of 4 from 8 on", key=(0,))
+        return elements
+
+
 def row_wall(wall: "Wall") -> WallLaw:
-    """Return the wall that each row would be by itself: a membrane's base, or the wall as it is."""
+    """Return the wall that each row would be by itself: a membrane's base, a solid's tube, or as it is."""
     if isinstance(wall, WallLaw):
         return wall
+    if isinstance(wall, SolidWall):
+        kept = {key: getattr(wall, key) for key in SaintVenantKirchhoffWall.model_fields}
+        return SaintVenantKirchhoffWall.model_construct(None, **kept | {"law": "saint_venant_kirchhoff"})
     kind = LAWS[wall.base]
     stated = {key: getattr(wall, key) for key in kind.model_fields if key != "law"}
     values = {key: value for key, value in stated.items() if value is not None} | {"law": wall.base}
@@ -83,8 +118,7 @@ def row_wall(wall: "Wall") -> WallLaw:
 
 
 if TYPE_CHECKING:
-    Wall = WallLaw | MembraneWall
+    Wall = WallLaw | MembraneWall | SolidWall
 else:
-    Wall = reduce(
-        or_, [Annotated[law, Tag(name)] for name, law in (*LAWS.items(), ("membrane", MembraneOnLaws))]
-    )
+    WHOLE = {"membrane": MembraneOnLaws, "solid": SolidWall}
+    Wall = reduce(or_, [Annotated[law, Tag(name)] for name, law in (LAWS | WHOLE).items()])

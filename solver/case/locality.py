@@ -1,13 +1,12 @@
-"""The error of taking a membrane's section to answer its own pressure alone, after a run."""
+"""The error of taking a section of a membrane or a solid to answer its own pressure alone, after a run."""
 
 import numpy as np
 
 from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.stiffness import wall_on_grid
-from solver.case.wall import has_section_pressure, membrane_of
+from solver.case.wall import has_section_pressure, whole_wall_of
 from solver.geometry.grid import Grid
-from solver.wall.membrane_tables import locality_error
 from solver.wall.sections import SectionWall
 
 LARGEST = 1e-3  # share of the radius beyond which the assumption fails
@@ -32,12 +31,12 @@ def wall_locality_error(case: Case, tables: SectionWall | None, pressure: Floats
     """
     grid = Grid(case.geometry.length, case.solver.n_x, case.solver.n_phi)
     own = wall_on_grid(case, grid)
-    membrane = membrane_of(case, grid, own)
-    if membrane is None or tables is None or not has_section_pressure(case):
+    whole = whole_wall_of(case, grid, own)
+    if whole is None or tables is None or not has_section_pressure(case):
         return None
     if np.min(pressure) <= own.reference_pressure:
         return None
-    return locality_error(membrane, tables, pressure)
+    return whole.locality_error(tables, pressure)
 
 
 def locality_warning(error: float | None) -> str | None:
@@ -45,6 +44,6 @@ def locality_warning(error: float | None) -> str | None:
     if error is None or error <= LARGEST:
         return None
     return (
-        f"the membrane's radius is off by up to {error:.2%}: the pressure varies too much along the artery "
+        f"the wall's radius is off by up to {error:.2%}: the pressure varies too much along the artery "
         "for a section's shape to follow from its own pressure alone (docs/coupled_model.md)"
     )

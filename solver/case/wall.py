@@ -1,20 +1,31 @@
-"""From a checked case to the wall that the flow sees: of rows or of sections, of springs or of a membrane."""
+"""From a checked case to the wall that the flow sees: rows or sections, springs, a membrane or a solid."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from cases.arrays import Floats
 from cases.sections.case import Case
 from cases.sections.solver import SemiImplicitSolver
-from cases.sections.wall import MembraneWall, row_wall
+from cases.sections.wall import MembraneWall, SolidWall, row_wall
 from solver.case.stiffness import WallOnGrid, moduli_on_grid, wall_on_grid
 from solver.geometry.grid import Grid
-from solver.wall import membrane_tables
+from solver.wall import membrane_tables, solid_tables
 from solver.wall.sections import SectionWall, linear_section_wall, row_table, tabulated_section_wall
+from solver.wall.solid import Solid
 from solver.wall.table import WallTable
 
 NONLINEAR_GROWTH = 0.25  # R/R₀ − 1 of the softest row of a nonlinear base at the highest pressure
+
+
+class WholeWall(NamedTuple):
+    """A wall that answers as a whole: tables of its sections, and their error in section pressures, Pa."""
+
+    section_wall: Callable[[], SectionWall]
+    locality_error: Callable[[SectionWall, Floats], float]
 
 
 @dataclass(frozen=True)
@@ -38,13 +49,13 @@ def walls_of(case: Case, grid: Grid) -> Walls:
     Raises
     ------
     ModelError
-        If the law is known for no pressure of interest, or a membrane buckles or folds.
+        If the law is known for no pressure of interest, or a wall buckles, runs away or folds.
     """
     own = wall_on_grid(case, grid)
-    membrane = membrane_of(case, grid, own)
+    whole = whole_wall_of(case, grid, own)
     known = own.stiffness, own.reference_pressure
-    if membrane is not None:
-        table = membrane_tables.section_wall(membrane)
+    if whole is not None:
+        table = whole.section_wall()
         if has_section_pressure(case):
             return Walls(*known, of_sections=table)
         return Walls(*known, of_rows=row_table(table))
@@ -56,12 +67,39 @@ def walls_of(case: Case, grid: Grid) -> Walls:
     return Walls(*known, of_sections=table)
 
 
-def membrane_of(case: Case, grid: Grid, own: WallOnGrid) -> membrane_tables.MembraneWall | None:
-    """Return the membrane of a case whose rows by themselves are ``own``; None for another wall."""
-    wall, radius, thickness = case.wall, case.geometry.radius, case.geometry.wall_thickness
-    if not isinstance(wall, MembraneWall):
-        return None
-    highest = membrane_tables.HIGHEST_GROWTH * float(np.min(own.stiffness)) / radius
+def whole_wall_of(case: Case, grid: Grid, own: WallOnGrid) -> WholeWall | None:
+    """Return the membrane or solid of a case whose rows by themselves are ``own``; None for another wall."""
+    if isinstance(case.wall, MembraneWall):
+        membrane = _membrane(case, case.wall, grid, own)
+        return WholeWall(
+            partial(membrane_tables.section_wall, membrane), partial(membrane_tables.locality_error, membrane)
+        )
+    if isinstance(case.wall, SolidWall):
+        solid = _solid(case, case.wall, grid, own)
+        return WholeWall(
+            partial(solid_tables.section_wall, solid), partial(solid_tables.locality_error, solid)
+        )
+    return None
+
+
+def _highest_load(case: Case, own: WallOnGrid) -> float:
+    """Largest load to tabulate by the growth of the softest row at small strain, Pa."""
+    return membrane_tables.HIGHEST_GROWTH * float(np.min(own.stiffness)) / case.geometry.radius
+
+
+def _solid(case: Case, wall: SolidWall, grid: Grid, own: WallOnGrid) -> solid_tables.SolidWall:
+    around, layers, along = wall.elements
+    (moduli,) = moduli_on_grid(case, Grid(grid.length, along, around))
+    geometry = case.geometry
+    solid = Solid(
+        geometry.length, geometry.radius, geometry.wall_thickness, moduli, wall.poisson_ratio, layers
+    )
+    return solid_tables.SolidWall(grid, solid, own.reference_pressure, _highest_load(case, own))
+
+
+def _membrane(case: Case, wall: MembraneWall, grid: Grid, own: WallOnGrid) -> membrane_tables.MembraneWall:
+    radius, thickness = case.geometry.radius, case.geometry.wall_thickness
+    highest = _highest_load(case, own)
     if own.table is not None:
         highest = min(highest, _load_of_growth(own.table, radius, own.reference_pressure))
 

@@ -1,1 +1,1 @@
-"""The wall: stiffness of each law, tables of nonlinear laws, the membrane, and what a whole section sees."""
+"""The wall: stiffness of each law, tables of nonlinear laws, membrane, solid, and what a section sees."""

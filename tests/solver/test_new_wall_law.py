@@ -81,7 +81,7 @@ def test_a_new_law_runs_and_is_the_base_of_a_membrane(command, tmp_path):
         (
             "cases",
             RUBBER.replace("rubber", "rubbr"),
-            f"wall.law: rubbr; did you mean rubber? allowed: {SHIPPED}, rubber, membrane",
+            f"wall.law: rubbr; did you mean rubber? allowed: {SHIPPED}, rubber, membrane, solid",
         ),
         ("cases", RUBBER.replace("share: 0.8", "share: 2"), "wall.share: 2; allowed: a number from 0.1 to 1"),
         (

@@ -67,6 +67,20 @@ def test_a_membrane_with_a_pressure_each_row(case_file):
     assert float(radius.max() - radius.min()) > 0.05e-3
 
 
+def test_a_solid_with_a_pressure_each_row_or_each_section(case_file):
+    text = case_file.read_text()
+    found = {}
+    for pressure in ("row", "section"):
+        case_file.write_text(text)
+        edited(case_file, "law: solid, youngs_modulus: 0.6 MPa, elements: [16, 1, 12]", pressure)
+        case = load_case_file(case_file).variants["patch"]
+        found[pressure] = run_case(case, default_output_times(case))
+    assert "wall_locality_error" not in found["row"].attrs
+    assert 0 < found["section"].attrs["wall_locality_error"] < 1e-3
+    radius = found["section"]["radius"].isel(time=-1, x=6)
+    assert float(radius.max() - radius.min()) > 0.05e-3
+
+
 def test_the_coupled_run_says_what_crosses_and_how_local_its_wall_is(case_file):
     edited(case_file, f"law: membrane, {BASES['thick']}")
     case = load_case_file(case_file).variants["patch"]

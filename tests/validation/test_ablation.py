@@ -56,6 +56,19 @@ def test_a_nonlinear_wall_has_its_own_rows(case_of):
     ]
 
 
+def test_a_solid_stands_beside_the_membrane_of_its_material(case_of):
+    models = models_between(case_of(law="solid", poisson_ratio=0.48))
+    assert list(models) == [
+        "saint_venant_kirchhoff wall, row pressure",
+        "membrane wall, row pressure",
+        "solid wall, row pressure",
+        "saint_venant_kirchhoff wall, section pressure",
+        "membrane wall, section pressure",
+        "solid wall, section pressure",
+    ]
+    assert models["membrane wall, section pressure"].wall.base == "saint_venant_kirchhoff"
+
+
 def test_the_command_writes_a_row_a_model(tmp_path, capsys):
     output = tmp_path / "found"
     assert ablation.main([str(written(small_case("local"), tmp_path)), "--output", str(output)]) == 0

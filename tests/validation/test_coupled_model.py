@@ -92,3 +92,15 @@ def test_rows_alone_miss_both(references):
 
 def test_the_thesis_3d_sectors():
     assert np.max(np.abs(sector_errors(CASES["local"], TABLE))) < 2.5e-2
+
+
+def test_on_3ds_own_wall_the_radius_is_3ds_and_sectors_share_better(references):
+    """All cells: R 0.03 % RMS and 0.10 % at worst, shares 0.42 % and 1.94 %; bands are what was asked for."""
+    case = load_case_file(ROOT / "cases/solid.yaml").variants["local"]
+    pair = pair_of(case, references("local"))
+    radius = relative(pair, "radius")
+    assert rms(radius) < 0.4e-2
+    assert abs(largest(radius)) < 0.2e-2  # the pressure, 0.4 % off, moves R by a tenth of that
+    share = relative(pair, "sector_flow_rate", "section_flow_rate")
+    assert rms(share) < 0.7e-2
+    assert abs(largest(share)) < 2e-2

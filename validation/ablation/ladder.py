@@ -2,14 +2,14 @@
 
 from cases.sections.case import Case
 from cases.sections.solver import SemiImplicitSolver
-from cases.sections.wall import MembraneOnLaws, MembraneWall, Wall, row_wall
+from cases.sections.wall import MembraneOnLaws, MembraneWall, SolidWall, Wall, row_wall
 from cases.sections.wall_laws import LAWS
 from cases.sections.wall_laws.law import HomogeneousWall, WallLaw
 from validation.errors import ValidationError
 
 
 def models_between(case: Case) -> dict[str, Case]:
-    """Return a case by wall and pressure: rows of springs, a membrane, one pressure a section, both.
+    """Return a case by wall and pressure: rows of springs, a whole wall, one pressure a section, both.
 
     Parameters
     ----------
@@ -29,14 +29,17 @@ def models_between(case: Case) -> dict[str, Case]:
     solver = case.solver
     if not isinstance(solver, SemiImplicitSolver):
         raise ValidationError("solver.scheme: the models compared need semi_implicit")
-    own, whole = row_wall(case.wall), _membrane(case.wall)
-    walls = {**_of_linear_laws(own), own.law: own, "membrane": whole}
+    own = row_wall(case.wall)
+    whole: dict[str, Wall] = {"membrane": _membrane(case.wall)}
+    if isinstance(case.wall, SolidWall):
+        whole["solid"] = case.wall
+    walls = {**_of_linear_laws(own), own.law: own, **whole}
     by_rows, by_sections = (solver.model_copy(update={"pressure": kind}) for kind in ("row", "section"))
     found = {
         f"{name} wall, row pressure": case.model_copy(update={"wall": wall, "solver": by_rows})
         for name, wall in walls.items()
     }
-    for name in (own.law, "membrane"):
+    for name in (own.law, *whole):
         changed = {"wall": walls[name], "solver": by_sections}
         found[f"{name} wall, section pressure"] = case.model_copy(update=changed)
     return found
@@ -79,6 +82,7 @@ def _own(law: type[WallLaw]) -> dict[str, float]:
 def _membrane(wall: Wall) -> MembraneWall:
     if isinstance(wall, MembraneWall):
         return wall
+    wall = row_wall(wall)
     stated = {key: getattr(wall, key) for key in type(wall).model_fields}
     if "poisson_ratio" not in stated:
         raise ValidationError(f"wall: a membrane on a {wall.law} needs a poisson_ratio; state law membrane")
