@@ -13,7 +13,7 @@ from reports.sections.declaration import Blocks, Need, declared
 from reports.sections.overview import limit_of
 from reports.sections.parts.models import columns_of, headed
 from reports.wording.csv_text import comma_separated
-from reports.wording.numbers import SPACE, listed
+from reports.wording.numbers import SPACE, fixed, listed, plus
 
 _QUANTITIES = {"radius": "$R$", "section_flow_rate": "$q$", "pressure": "$P$"}
 _MOST = 2  # quantities, those that limits judge first
@@ -53,7 +53,7 @@ def _figure(comparison: Comparison, model: str, quantities: list[str]) -> Figure
     said = "; ".join(
         f"{FIELDS[quantity].label} "
         + listed(
-            f"{name} {bias:+.1f}{SPACE}±{SPACE}{spread:.1f}{SPACE}%".replace("-", "−")
+            f"{name} {plus(fixed(bias, 1))}{SPACE}±{SPACE}{fixed(spread, 1)}{SPACE}%"
             for name, bias, spread in of
         )
         for quantity, of in spreads.items()

@@ -108,7 +108,8 @@ def _said(found: Mapping[str, Budget]) -> str:
     for name, of in found.items():
         told = NOT_TOLD if of.within_uncertainty else sentence(of)
         same.setdefault(told, []).append(name)
-    return "; ".join(f"{told}: {listed(names)}" for told, names in same.items())
+    said = "; ".join(f"{told}: {listed(names)}" for told, names in same.items())
+    return said[:1].upper() + said[1:]
 
 
 def _named(comparison: Comparison, variant: str, model: str) -> str:

@@ -15,7 +15,7 @@ from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import columns_of, headed
 from reports.sections.parts.places import place_words
 from reports.sections.parts.stated import mostly, stated_variants
-from reports.wording.numbers import SPACE, listed
+from reports.wording.numbers import SPACE, listed, percent
 from reports.wording.words import instant
 
 _MAPPED = {"radius": "$R$", "sector_flow_rate": r"$q_\varphi$", "pressure": "$P$"}
@@ -58,7 +58,7 @@ def _farthest(comparison: Comparison, quantities: list[str], variants: list[str]
                 continue
             at = np.unravel_index(int(np.nanargmax(np.abs(maps))), maps.shape)
             where = place_words(comparison, int(at[1]) + 1, int(at[2]) + 1)
-            value = f"{maps[at]:+.1f}{SPACE}%".replace("-", "−")
+            value = percent(float(maps[at]) / 100, 1)
             label = FIELDS[quantity].label
             said.append(f"{label} {value} ({headed(comparison, model)}, {variants[int(at[0])]}, {where})")
     return "; ".join(said)

@@ -123,7 +123,7 @@ def test_agreement_claims_bias_and_scatter_of_all_cells_and_states(
     caption = _caption(captions, f"Agreement of {model} with 3D")
     for name in ("radius", "section_flow_rate"):
         words = caption.partition(f"{FIELDS[name].label} none ")[2].partition(";")[0]
-        found = re.findall(r"([+−][\d.]+) ± ([\d.]+) %", words)
+        found = re.findall(r"([+−]?[\d.]+) ± ([\d.]+) %", words)
         assert len(found) == len(synthetic.VARIANTS)
         for variant, (bias, spread) in zip(synthetic.VARIANTS, found, strict=True):
             two, three = (data[f"{m}_{name}"].sel(variant=variant).values for m in (model, "reference"))
@@ -159,7 +159,7 @@ def test_the_budgets_claims_are_those_of_the_metrics(captions: list[str], two_mo
     for quantity in ("section_flow_rate", "radius"):
         caption = _caption(captions, f"Error of the {FIELDS[quantity].label} and what it is owed to.")
         told: dict[str, str] = {}
-        for interval, names in re.findall(r"model error between ([^:]+): ([\w ,]+)", caption):
+        for interval, names in re.findall(r"[Mm]odel error between ([^:]+): ([\w ,]+)", caption):
             told |= dict.fromkeys(re.split(r", | and ", names), interval)
         assert set(told) == {f"{variant} {model}" for variant in synthetic.VARIANTS for model in MODELS}
         for row in two_models[1]:

@@ -23,7 +23,7 @@ def comparison(tmp_path):
     """Write a comparison whose first variant has facts of its 3D run."""
 
     def loaded(rom=None, **facts):
-        write(tmp_path, Setup())
+        write(tmp_path, Setup(n_x=6, n_phi=4, n_time=7, n_y=5, i=(1, 3), j=(1, 3)))
         path = tmp_path / "provenance.json"
         content = json.loads(path.read_text(encoding="utf-8"))
         content["variants"]["none"]["reference"] |= facts

@@ -55,6 +55,7 @@ def test_several_directories_get_a_page_that_leads_to_their_reports(
     small: synthetic.Setup,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
+    undrawn: None,
 ) -> None:
     for name in ("a", "b"):
         synthetic.write(tmp_path / "all" / name, dataclasses.replace(small, title=name))
@@ -70,6 +71,7 @@ def test_the_page_is_not_written_if_one_case_is_wrong(
     small: synthetic.Setup,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
+    undrawn: None,
 ) -> None:
     synthetic.write(tmp_path / "good", small)
     assert _run(monkeypatch, tmp_path / "good", tmp_path / "bad") == 2

@@ -36,7 +36,7 @@ def added() -> Iterator[int]:
 
 
 def test_an_added_section_is_found_at_its_place(
-    tmp_path: Path, small: synthetic.Setup, added: int, pdf_text: Any
+    tmp_path: Path, small: synthetic.Setup, added: int, pdf_text: Any, undrawn: None
 ) -> None:
     synthetic.write(tmp_path, small)
     (tmp_path / "narrowest.txt").write_text("at i = 6")
