@@ -9,7 +9,7 @@ from cases.fields import FIELDS
 from reports.blocks import Figure
 from reports.figures.agreement import Agreement, agreement
 from reports.result.load import Comparison
-from reports.sections.declaration import Blocks, Need, declared
+from reports.sections.declaration import Blocks, declared
 from reports.sections.overview import limit_of
 from reports.sections.parts.models import columns_of, headed
 from reports.wording.csv_text import comma_separated
@@ -73,7 +73,7 @@ def _figure(comparison: Comparison, model: str, quantities: list[str]) -> Figure
     )
 
 
-@declared("agreement", "Agreement over all cells and states", Need(lambda comparison: not comparison.sparse))
+@declared("agreement", "Agreement over all cells and states", lambda comparison: not comparison.sparse)
 def section(comparison: Comparison) -> Blocks:
     """Return a figure a model of the quantities that limits judge, or of the first ones."""
     judged = [name for name in _QUANTITIES if limit_of(comparison, name) is not None]

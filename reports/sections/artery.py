@@ -8,7 +8,7 @@ import numpy as np
 from reports.blocks import Figure, Interactive
 from reports.figures.tubes import Tube, tubes
 from reports.result.load import Comparison
-from reports.sections.declaration import Blocks, Need, declared, instants
+from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import headed
 from reports.sections.parts.places import place_words
@@ -94,10 +94,7 @@ def _narrowest(comparison: Comparison, state: int) -> str:
     return "; ".join(said)
 
 
-SHAPE = Need(has_shape)
-
-
-@declared("artery", "3D view", instants(), SHAPE)
+@declared("artery", "3D view", instants(), has_shape)
 def section(comparison: Comparison) -> Blocks:
     """Return a still, and a picture to be turned."""
     name, t_s = comparison.times[0]

@@ -4,18 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
-from reports.blocks import Block, Figure, Paragraph, Section, Subsection, Table
+from reports.blocks import Block, Figure, Section, Subsection, Table
 from reports.result.load import Comparison
 
 Blocks = tuple[Block | Subsection, ...]
-
-
-@dataclass(frozen=True)
-class Need:
-    """A condition of a section, and the line that stands for all of it elsewhere; with "" it is left out."""
-
-    met: Callable[[Comparison], bool]
-    told: str = ""
+Need = Callable[[Comparison], bool]
 
 
 @dataclass(frozen=True)
@@ -27,7 +20,7 @@ class Declared:
     key, title : str
         Anchor and heading.
     needs : tuple of Need
-        Asked in this order before anything is composed.
+        Conditions, asked in this order before anything is composed; without one of them it is left out.
     blocks : callable
         What the section of a comparison says; nothing leaves it out.
     appendix : bool
@@ -42,11 +35,7 @@ class Declared:
 
     def __call__(self, comparison: Comparison) -> Section | None:
         """Return the section, or None where it has nothing to say."""
-        unmet = next((need for need in self.needs if not need.met(comparison)), None)
-        if unmet is not None:
-            blocks: Blocks = (Paragraph(unmet.told),) if unmet.told else ()
-        else:
-            blocks = self.blocks(comparison)
+        blocks = self.blocks(comparison) if all(met(comparison) for met in self.needs) else ()
         return Section(self.key, self.title, blocks, self.appendix) if blocks else None
 
 
@@ -83,9 +72,9 @@ def of_each_model(blocks: Callable[[Comparison], Blocks]) -> Callable[[Compariso
 
 def instants() -> Need:
     """Need of an instant that the case names."""
-    return Need(lambda comparison: bool(comparison.times))
+    return lambda comparison: bool(comparison.times)
 
 
 def result_file(name: str) -> Need:
     """Need of a file in the comparison's directory that not every comparison has."""
-    return Need(lambda comparison: (comparison.directory / name).is_file())
+    return lambda comparison: (comparison.directory / name).is_file()

@@ -9,7 +9,7 @@ from cases.fields import FIELDS
 from reports.blocks import Block, Figure, Paragraph
 from reports.figures.along_and_around import Change, ChangeRow, along_and_around
 from reports.result.load import Comparison
-from reports.sections.declaration import Blocks, Need, declared
+from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.parts.models import headed, model_words
 from reports.sections.parts.places import central_cell, place_words
 from reports.sections.parts.stated import anywhere
@@ -87,8 +87,8 @@ def _sentence(comparison: Comparison, variant: str) -> str:
 @declared(
     "moved",
     "What calcification moves",
-    Need(lambda comparison: bool(comparison.changed)),
-    Need(lambda comparison: bool(comparison.times)),
+    lambda comparison: bool(comparison.changed),
+    instants(),
 )
 def section(comparison: Comparison) -> Blocks:
     """Return how well each model follows the change, and the change along and around."""

@@ -1,7 +1,6 @@
 """Words for quantities, statistics and cells in a report."""
 
 import math
-from collections.abc import Sequence
 
 from cases.fields import FIELDS, Field
 from cases.results.metric_row import MetricRow
@@ -71,12 +70,6 @@ def place(row: MetricRow) -> str:
     return spot(row.i, row.j, row.t_s)
 
 
-def column_heading(comparison: Comparison, i: int) -> str:
-    """E.g. "i = 39, x = 4.81 mm"."""
-    x = comparison.x[comparison.i.index(i)]
-    return f"i = {i}, x = {1e3 * x:.4g} mm"
-
-
 def baseline_words(comparison: Comparison) -> str:
     """Name the variant that changes are counted from, or each of several with the variants it is for."""
     names = list(dict.fromkeys(comparison.baselines[name] for name in comparison.changed))
@@ -100,9 +93,3 @@ def instant(name: str, t_s: float) -> str:
     if unit == "s" and value.replace(".", "", 1).isdecimal():
         return f"{value}{SPACE}s"
     return f"{name} ({t_s:.3f}{SPACE}s)"
-
-
-def top_to_bottom(times: Sequence[tuple[str, float]]) -> str:
-    """Say what instants the rows of a figure are."""
-    words = listed(instant(*named) for named in times)
-    return words if len(times) == 1 else f"from top to bottom {words}"
