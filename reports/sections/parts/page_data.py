@@ -49,11 +49,11 @@ class Packed:
         return asdict(self)
 
 
-def pack(values: Floats) -> Packed:
-    """Pack an array of any shape; the values come back to 1/131068 of their range."""
+def pack(values: Floats, levels: int = LEVELS) -> Packed:
+    """Pack an array of any shape; the values come back to half a level, of so many in their range."""
     finite = np.isfinite(values)
     low, high = (float(values[finite].min()), float(values[finite].max())) if finite.any() else (0.0, 0.0)
-    step = (high - low) / LEVELS or 1.0
+    step = (high - low) / levels or 1.0
     whole = np.full(values.shape, ABSENT, dtype=np.uint16)
     whole[finite] = np.round((values[finite] - low) / step).astype(np.uint16)
     for axis in range(whole.ndim):
@@ -63,6 +63,7 @@ def pack(values: Floats) -> Packed:
 
 
 SHOWN = ("pressure", "radius", "sector_flow_rate", "profile_exponent", "section_flow_rate")
+LEVELS_OF_EXPONENT = 10_000  # two decimals of up to 100; finer ones would be a tenth of the page
 LARGEST_EXPONENT = 100.0  # beyond, a profile is flat to the eye, and one such value would coarsen all others
 
 
@@ -102,11 +103,12 @@ def all_models(
     `data` returns where a comparison holds the quantity's values, of the reference and of the model in view.
     """
     unit, factor = DIFFERENCE_UNITS[field.unit]
+    levels = LEVELS_OF_EXPONENT if field.name == "profile_exponent" else LEVELS
 
     def packed(seen: Comparison, name: str) -> list[dict[str, object]]:
         values = data(seen)[variable(name, field.name)]
         return [
-            pack(_shown(field, values.sel(variant=variant).values)).plain() for variant in comparison.variants
+            pack(_shown(field, values.sel(variant=variant).values), levels).plain() for variant in comparison.variants
         ]
 
     return {
