@@ -16,6 +16,7 @@ from reports.figures.lumen_cells import edges_of, runs
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.66, 0.10, 0.46, 0.36
 _HEIGHT, _GAP = 1.06, 0.44  # inches: of the panels, and below them for their abscissas
+_LOW, _MANY = 0.84, 6  # the height where more rows than so many share a page
 _CLOSE = 0.14  # below panels whose abscissas stand below the next row
 
 
@@ -62,9 +63,13 @@ class ChangeRow:
 
 
 def along_and_around(
-    variants: Sequence[str], rows: Sequence[ChangeRow], models: Sequence[str], reference: str = "3D"
+    variants: Sequence[str],
+    rows: Sequence[ChangeRow],
+    models: Sequence[str],
+    reference: str = "3D",
+    from_zero: bool = True,
 ) -> str:
-    """Draw a column a variant and a row a quantity and kind of line; each row has one scale with zero in it.
+    """Draw a column a variant and a row a quantity and kind of line; each row has one scale.
 
     Parameters
     ----------
@@ -76,6 +81,8 @@ def along_and_around(
         Names of the reduced models.
     reference : str
         Name of the reference.
+    from_zero : bool
+        Whether each scale has zero in it.
 
     Returns
     -------
@@ -84,18 +91,19 @@ def along_and_around(
     """
     with style.context(STYLE):
         below = [_CLOSE if _same_abscissa(*pair) else _GAP for pair in pairwise(rows)]
-        total = _TOP + _HEIGHT * len(rows) + sum(below) + _BOTTOM
+        high = _HEIGHT if len(rows) <= _MANY else _LOW
+        total = _TOP + high * len(rows) + sum(below) + _BOTTOM
         figure, axis = sheet.sheet(total)
         for number, row in enumerate(rows):
-            bottom = total - _TOP - _HEIGHT * (number + 1) - sum(below[:number])
+            bottom = total - _TOP - high * (number + 1) - sum(below[:number])
             edges = edges_of(row.abscissa)
             known = [v for p in row.panels for v in (p.reference, *p.models)]
             panels = sheet.in_a_row(
                 len(variants),
-                (bottom, _HEIGHT),
+                (bottom, high),
                 (_LEFT, WIDTH - _RIGHT),
                 (float(edges[0]), float(edges[-1])),
-                sheet.limits([np.zeros(1), *known]),
+                sheet.limits([*([np.zeros(1)] if from_zero else []), *known]),
                 gap=0.26,
             )
             if number == 0:

@@ -62,7 +62,7 @@ def trust_map(
         )
         maps = Maps(row.panels, "error ÷ limit", scale=scale, words=words, corners=corners, threshold=1.0)
         drawn.append(MapRow(row.label, (maps,)))
-    note = "black line: the limit; framed: calcified"
+    note = "line: the limit; framed: calcified"
     return heat_maps(x, phi, variants, drawn, calcified, note)
 
 

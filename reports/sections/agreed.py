@@ -35,11 +35,11 @@ def _row(view: Comparison, quantity: str) -> Agreement:
 
 
 def _spread(row: Agreement, variants: tuple[str, ...]) -> list[tuple[str, float, float]]:
-    """Bias and 1.96 standard deviations of the difference over the mean, percent, of each variant."""
+    """Bias and 1.96 standard deviations of the difference in percent of 3D, of each variant."""
     found = []
     for name, three, two in zip(variants, row.reference, row.model, strict=True):
         with np.errstate(divide="ignore", invalid="ignore"):
-            apart = 200 * (two - three) / (two + three)
+            apart = 100 * (two - three) / np.abs(three)
         known = apart[np.isfinite(apart)]
         if known.size:
             found.append((name, float(known.mean()), 1.96 * float(known.std())))

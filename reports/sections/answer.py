@@ -8,6 +8,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts import trust
 from reports.sections.parts.cost import cost_sentence
+from reports.sections.parts.error_budget import budget
 from reports.sections.parts.heat_table import heat_table
 from reports.sections.parts.limits import place_beyond
 from reports.sections.parts.models import model_words
@@ -34,11 +35,23 @@ def answer(comparison: Comparison, variant: str) -> str:
     bad = [model for model in comparison.models if model not in good]
     what = listed(dict.fromkeys(quantity_words(row.quantity) for row in judged[comparison.models[0]]))
     if not bad:
-        return f"{opening}yes, for {what}, with {model_words(comparison, good)}{_nearest(judged)}."
+        local = "".join(f" {text}" for model in good if (text := _locally(comparison, model, judged[model])))
+        return f"{opening}yes, for {what}, with {model_words(comparison, good)}{_nearest(judged)}.{local}"
     said = " ".join(_missed(comparison, model, failing[model]) for model in bad)
     if not good:
         return f"{opening}no. {said}"
-    return f"{opening}yes, for {what}, with {model_words(comparison, good)}. {said}"
+    local = "".join(f" {text}" for model in good if (text := _locally(comparison, model, judged[model])))
+    return f"{opening}yes, for {what}, with {model_words(comparison, good)}.{local} {said}"
+
+
+def _locally(comparison: Comparison, model: str, rows: Iterable[MetricRow]) -> str:
+    """Say where a model that is within its limits as a whole is beyond them; "" where nowhere."""
+    view = comparison.of(model)
+    places = [(quantity_words(row.quantity), where) for row in rows if (where := place_beyond(view, row))]
+    if not places:
+        return ""
+    said = "; ".join(f"{words} {where}" for words, where in places)
+    return f"Locally {model_words(comparison, [model])} is beyond the limit: {said}."
 
 
 def _capital(text: str) -> str:
@@ -65,12 +78,20 @@ def _missed(comparison: Comparison, model: str, rows: Iterable[MetricRow]) -> st
             continue
         where = place_beyond(comparison.of(model), row)
         beyond.append(
-            f"{quantity_words(row.quantity)}, {_against(row)}{f', exceeded {where}' if where else ''}"
+            f"{quantity_words(row.quantity)}, {_against(row)}{_with_inflow(comparison.of(model), row)}"
+            f"{f', exceeded {where}' if where else ''}"
         )
     said = [f"{name} misses {'; '.join(beyond)}."] if beyond else []
     if unknown:
         said.append(f"{'It' if beyond else name} could not be judged by {listed(unknown)}.")
     return " ".join(said)
+
+
+def _with_inflow(view: Comparison, row: MetricRow) -> str:
+    """Say what an RMS error is with the inflow of 3D; "" where that was not computed."""
+    found = budget(view, row.variant, row.quantity) if row.statistic == "rms_error" else None
+    matched = None if found is None else found["matched"]
+    return "" if matched is None else f" ({share(matched)} with the inflow of 3D)"
 
 
 def which_model(comparison: Comparison) -> str:
@@ -89,7 +110,7 @@ def which_model(comparison: Comparison) -> str:
         said += [f"{quantity_words(quantity)}: {', '.join(parts)}"] if parts else []
     if not said:
         return ""
-    return f"Which model for which question (the first in the file within all limits): {'; '.join(said)}."
+    return f"Which model for which question (the first one within its limits): {'; '.join(said)}."
 
 
 def _holds(comparison: Comparison, model: str, variant: str, quantity: str) -> bool:

@@ -67,6 +67,7 @@ def _figures(comparison: Comparison, number: int, variant: str) -> list[Figure]:
                 ("time into the cycle (s)", time),
                 [probe_words(comparison, i) for i in columns],
                 rows,
+                from_zero=False,
             )
         )
     return figures

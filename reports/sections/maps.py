@@ -36,6 +36,14 @@ def _limit(comparison: Comparison, quantity: str) -> float | None:
     return limit_of(comparison, quantity) or limit_of(comparison, _AS.get(quantity, quantity))
 
 
+def _whose(comparison: Comparison, quantity: str) -> str:
+    """Say of a scale that it is not the quantity's own limit."""
+    if limit_of(comparison, quantity):
+        return ""
+    other = _AS.get(quantity, quantity)
+    return f" (the limit of the {FIELDS[other].label})" if limit_of(comparison, other) else " (no limit)"
+
+
 def _rows(comparison: Comparison, quantities: list[str], variants: list[str]) -> list[LimitRow]:
     return [
         LimitRow(
@@ -70,7 +78,7 @@ def _figure(comparison: Comparison, variants: list[str]) -> Figure:
     quantities = [name for name in known if _limit(comparison, name)] or known
     when = instant(*comparison.times[0])
     scales = [
-        f"{FIELDS[name].label} ±{100 * (limit or _UNJUDGED):g}{SPACE}%{'' if limit else ' (no limit)'}"
+        f"{FIELDS[name].label} ±{100 * (limit or _UNJUDGED):g}{SPACE}%{_whose(comparison, name)}"
         for name in quantities
         for limit in (_limit(comparison, name),)
     ]

@@ -6,15 +6,25 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.fields import FIELDS
-from reports.blocks import Block, Figure, Paragraph
+from cases.quantities import of_cycle
+from reports.blocks import Block, Column, Figure, Paragraph, Table
 from reports.figures.along_and_around import Change, ChangeRow, along_and_around
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.parts.models import headed, model_words
-from reports.sections.parts.places import central_cell, place_words
+from reports.sections.parts.places import place_words, shown_cell
 from reports.sections.parts.stated import anywhere
 from reports.wording.csv_text import comma_separated
-from reports.wording.numbers import DIFFERENCE_UNITS, SPACE, listed, percent, unsigned
+from reports.wording.numbers import (
+    DIFFERENCE_UNITS,
+    SPACE,
+    decimals_for,
+    fixed,
+    listed,
+    percent,
+    plus,
+    unsigned,
+)
 from reports.wording.words import baseline_words, instant, quantity_words
 
 _LINES = (("radius", "x"), ("radius", "phi"), ("sector_flow_rate", "phi"))
@@ -79,8 +89,37 @@ def _sentence(comparison: Comparison, variant: str) -> str:
     if not parts:
         return ""
     return (
-        f"{comparison.titles[variant]}: what it changes is in 2D off by this share of what it changes in 3D "
+        f"{comparison.titles[variant]}: how far its change in 2D is from its change in 3D, over the latter "
         f"(RMS; 100{SPACE}% is no better than to expect no change): {'; '.join(parts)}."
+    )
+
+
+def _table(comparison: Comparison) -> Table | None:
+    """Return what calcification changes of the numbers of the cycle, in 3D and in each model."""
+    sides = [
+        ("3D", comparison.models[0], "reference"),
+        *((headed(comparison, m), m, "rom") for m in comparison.models),
+    ]
+    rows = []
+    for quantity in of_cycle():
+        unit, factor = DIFFERENCE_UNITS.get(FIELDS[quantity].unit, (FIELDS[quantity].unit, 1.0))
+        found = [
+            None if row is None or getattr(row, side) is None else factor * getattr(row, side)
+            for name in comparison.changed
+            for _, model, side in sides
+            for row in (comparison.of(model).metrics.find(name, quantity, "change"),)
+        ]
+        if unit != "ms" and any(value is not None for value in found):
+            decimals = decimals_for(found, 3, most=3)
+            rows.append((quantity_words(quantity), unit, *(plus(fixed(value, decimals)) for value in found)))
+    if not rows:
+        return None
+    columns = [Column(title, "number", name) for name in comparison.changed for title, _, _ in sides]
+    return Table(
+        "moved-table",
+        f"What calcification changes of the cycle: variant minus {baseline_words(comparison)}.",
+        (Column("quantity", "prose"), Column("unit"), *columns),
+        tuple(rows),
     )
 
 
@@ -92,7 +131,7 @@ def _sentence(comparison: Comparison, variant: str) -> str:
 )
 def section(comparison: Comparison) -> Blocks:
     """Return how well each model follows the change, and the change along and around."""
-    place = central_cell(comparison)
+    place = shown_cell(comparison)
     blocks: list[Block] = [
         Paragraph(text) for name in comparison.changed if (text := _sentence(comparison, name))
     ]
@@ -129,7 +168,8 @@ def section(comparison: Comparison) -> Blocks:
             _csv(comparison, shown, rows),
         )
     )
-    return tuple(blocks)
+    table = _table(comparison)
+    return (*blocks, *((table,) if table else ()))
 
 
 def _csv(comparison: Comparison, shown: list[tuple[str, str]], rows: list[ChangeRow]) -> str:

@@ -12,7 +12,7 @@ from reports.figures.overview import Cycle, OverviewRow, overview
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts.models import columns_of, headed
-from reports.sections.parts.places import central_cell, in_calcification, place_words, shown_row
+from reports.sections.parts.places import in_calcification, place_words, shown_cell
 from reports.sections.parts.stated import anywhere, left_out
 from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import SPACE, listed
@@ -76,7 +76,7 @@ def _worst(comparison: Comparison, rows: dict[str, OverviewRow], variants: list[
 @declared("overview", "All patterns at a glance")
 def section(comparison: Comparison) -> Blocks:
     """Return one figure of all variants, quantities and models at the middle of the calcification."""
-    place = central_cell(comparison)
+    place = shown_cell(comparison)
     variants = [
         name
         for name in comparison.variants
@@ -119,7 +119,7 @@ def section(comparison: Comparison) -> Blocks:
 
 def _sketch(comparison: Comparison) -> Figure:
     """Return the artery from the side with the shown places, numbered."""
-    j = shown_row(comparison)
+    j = shown_cell(comparison)[1]
     fields = comparison.fields
     phi = float(np.degrees(fields["phi"].values[j - 1]))
     places = [

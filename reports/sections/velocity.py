@@ -13,7 +13,7 @@ from reports.sections.parts.cells import chunks
 from reports.sections.parts.grids import GridPanel, GridRow, grid_figure
 from reports.sections.parts.models import headed
 from reports.sections.parts.page_data import all_models
-from reports.sections.parts.places import place_words, probe_words, shown_row
+from reports.sections.parts.places import place_words, probe_words, shown_cell
 from reports.sections.parts.sections_figure import sections_figure
 from reports.sections.parts.stated import anywhere, stated_variants
 from reports.wording.numbers import SPACE, listed, signed, with_unit
@@ -58,7 +58,7 @@ def _farthest(comparison: Comparison, variants: list[str], state: int) -> str:
 
 def figures(comparison: Comparison, variants: list[str]) -> list[Figure]:
     """Profiles at the first named instant, a row of panels a variant."""
-    j = shown_row(comparison)
+    j = shown_cell(comparison)[1]
     when = instant(*comparison.times[0])
     farthest = _farthest(comparison, variants, 0)
     where = row_heading(comparison, j)

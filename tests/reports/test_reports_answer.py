@@ -113,17 +113,24 @@ def test_each_number_of_a_sentence_is_an_error_a_limit_or_a_share_of_the_cells(
                 assert f"{words} {error} %, limit {_limit(row)}" in of_model
                 expected += [error.lstrip("+"), f"{100 * row['band']:g}"]
                 if row["statistic"] == "rms_error":
+                    (matched,) = (
+                        each["error"]
+                        for each in rows
+                        if (each["variant"], each["model"], each["quantity"], each["statistic"])
+                        == (variant, model, row["quantity"], "budget_matched")
+                    )
+                    assert f"({100 * matched:.2f} % with the inflow of 3D)" in of_model
+                    expected += [f"{100 * matched:.2f}", "3"]
                     beyond = over_limits[variant, model, row["quantity"]] > 1
                     assert f"in {100 * beyond.mean():.0f} % of the cells" in of_model
                     expected.append(f"{100 * beyond.mean():.0f}")
-            numbers = re.findall(
-                r"[\d.]*\d", re.sub(r"within [\d.]+ mm|[\d.]+ (?:and [\d.]+ )?mm", "", of_model)
-            )
+            places = r": (?:[xφ] = (?:[\d.]+ to [\d.]+(?: and |; )?)+ ?(?:mm|°)(?:, )?)+"
+            numbers = re.findall(r"[\d.]*\d", re.sub(places, "", of_model))
             assert numbers == expected
 
 
 def test_which_model_is_the_first_within_all_limits(page: str, rows: Rows) -> None:
-    said = page.partition("Which model for which question (the first in the file within all limits): ")[2]
+    said = page.partition("Which model for which question (the first one within its limits): ")[2]
     for quantity in ("section_flow_rate", "radius", "largest_pressure_difference"):
         expected: dict[str, list[str]] = {}
         for variant in synthetic.VARIANTS:

@@ -103,7 +103,8 @@ def test_a_caption_names_where_the_maps_are_farthest_apart(
 
 def test_scales_of_the_maps_end_at_the_limits(two_models: tuple[Path, Rows], tmp_path: Path) -> None:
     caption = _plain(_figure(maps.section(load(two_models[0]))))
-    assert "scales end at the limits: lumen radius ±0.5 % and flow rate through one sector ±4 %." in caption
+    sector = "flow rate through one sector ±4 % (the limit of the flow rate through the section)"
+    assert f"scales end at the limits: lumen radius ±0.5 % and {sector}." in caption
     synthetic.write(tmp_path, synthetic.Setup(variants=("local",), baseline="", bands=[]))
     caption = _plain(_figure(maps.section(load(tmp_path))))
     assert "lumen radius ±1 % (no limit)" in caption

@@ -28,7 +28,8 @@ function maps(host) {
       return cell && { cell, lines: [placeWords(...cell), ...values(cell[0] * count.phi + cell[1])] };
     };
     const worst = largestAt(panels[2].values);
-    const here = `${field.label}, variant ${page.variants[chosen.variant]}, ${moment(chosen.time)}`;
+    const instead = field === chosenField() ? "" : `${chosenField().label} has one value a section, so the maps show the ${field.label}. `;
+    const here = `${instead}${field.label}, variant ${page.variants[chosen.variant]}, ${moment(chosen.time)}`;
     const said = (k) => `at ${placeWords(Math.floor(k / count.phi), k % count.phi)}: ${values(k).join(", ")}`;
     words.textContent = worst === null ? `${here}: nowhere finite.`
       : `${here}. Ringed, ${said(chosen.i * count.phi + chosen.j)}. Farthest apart ${said(worst)}.`;

@@ -74,7 +74,7 @@ figures();
 document.querySelectorAll("main table").forEach((table) => {
   if (table.tBodies[0].rows.length < 2) return;
   filterable(table);
-  sortable(table);
+  if (!("fixed" in table.dataset)) sortable(table);
 });
 fillBar?.(document.getElementById("choice"));
 document.querySelectorAll("[data-interactive]").forEach((host) => PICTURES[host.dataset.interactive](host));

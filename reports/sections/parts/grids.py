@@ -59,6 +59,7 @@ def grid_figure(
     abscissa: tuple[str, Floats],
     columns: Sequence[str],
     rows: Sequence[GridRow],
+    from_zero: bool = True,
 ) -> Figure:
     """Return a figure of all models.
 
@@ -73,6 +74,8 @@ def grid_figure(
         Headings.
     rows : sequence of GridRow
         From top to bottom.
+    from_zero : bool
+        Whether their scales have zero in them.
     """
     drawn = [_row(comparison, row, abscissa) for row in rows]
     models = [headed(comparison, model) for model in comparison.models]
@@ -81,7 +84,7 @@ def grid_figure(
         key,
         caption,
         alt,
-        partial(along_and_around, list(columns), drawn, models),
+        partial(along_and_around, list(columns), drawn, models, from_zero=from_zero),
         _csv(comparison, abscissa, columns, list(zip(rows, drawn, strict=True))),
     )
 

@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from cases.arrays import Floats
+from cases.arrays import Flags, Floats
 from cases.results.metric_row import MetricRow
+from reports.figures.lumen_cells import edges_of, runs
 from reports.result.load import Comparison
-from reports.wording.numbers import SPACE, fixed
+from reports.wording.numbers import SPACE, fixed, listed
 
-_NEAR = 0.5  # of the rest of the artery: farther from the calcification, a place is told by its x
+_MOST = 3  # stretches that are told one by one
 
 
 def over_limit(comparison: Comparison, row: MetricRow) -> Floats | None:
@@ -73,22 +74,29 @@ def worst_over_limits(comparison: Comparison, variant: str) -> Floats | None:
 
 
 def place_beyond(comparison: Comparison, row: MetricRow) -> str:
-    """Say where a band's error is beyond its limit, as in "within 3.9 mm of the calcification"."""
+    """Say where a band's error is beyond its limit, as in "in 43 % of the cells: x = 1.8 to 5.0 mm"."""
     ratio = over_limit(comparison, row)
     if ratio is None or not np.isfinite(ratio).all() or not (ratio > 1).any():
         return ""
-    sections = (ratio > 1).any(axis=1)
-    share = f"in {100 * float((ratio > 1).mean()):.0f}{SPACE}% of the cells"
-    if sections.all():
-        return share
-    x = 1e3 * comparison.fields["x"].values
-    calcified = comparison.fields["calcified"].sel(variant=row.variant).values.astype(bool).any(axis=1)
-    if calcified.any():
-        away = np.maximum(x[calcified].min() - x, 0.0) + np.maximum(x - x[calcified].max(), 0.0)
-        reach = float(away[sections].max())
-        if reach == 0.0:
-            return f"{share}, all along the calcification"
-        if reach < _NEAR * float(away.max()):
-            return f"{share}, all within {fixed(reach, 1)}{SPACE}mm of the calcification"
-    first, last = x[sections][[0, -1]]
-    return f"{share}, between x{SPACE}={SPACE}{fixed(first, 1)} and {fixed(last, 1)}{SPACE}mm"
+    beyond = ratio > 1
+    said = [f"in {100 * float(beyond.mean()):.0f}{SPACE}% of the cells"]
+    for name, axis, factor, decimals, unit in (
+        ("x", 1, 1e3, 1, f"{SPACE}mm"),
+        ("phi", 0, 180 / np.pi, 0, "°"),
+    ):
+        inside = beyond.any(axis=axis)
+        if not inside.all():
+            edges = edges_of(factor * comparison.fields[name].values)
+            told = _stretches(edges, np.atleast_1d(inside), decimals, around=name == "phi")
+            said.append(f"{'φ' if name == 'phi' else name}{SPACE}={SPACE}{told}{unit}")
+    return f"{said[0]}: {', '.join(said[1:])}" if said[1:] else said[0]
+
+
+def _stretches(edges: Floats, inside: Flags, decimals: int, around: bool) -> str:
+    """Stretches of cells between their edges; around the artery one may pass φ = 0."""
+    found = [(float(edges[first]), float(edges[last])) for first, last in runs(inside)]
+    if around and len(found) > 1 and inside[0] and inside[-1]:
+        found = [*found[1:-1], (found[-1][0], found[0][1])]
+    if len(found) > _MOST:
+        return f"{fixed(found[0][0], decimals)} to {fixed(found[-1][1], decimals)} ({len(found)} stretches)"
+    return listed(f"{fixed(low, decimals)} to {fixed(high, decimals)}" for low, high in found)

@@ -108,7 +108,8 @@ def all_models(
     def packed(seen: Comparison, name: str) -> list[dict[str, object]]:
         values = data(seen)[variable(name, field.name)]
         return [
-            pack(_shown(field, values.sel(variant=variant).values), levels).plain() for variant in comparison.variants
+            pack(_shown(field, values.sel(variant=variant).values), levels).plain()
+            for variant in comparison.variants
         ]
 
     return {

@@ -19,13 +19,17 @@ def probe_words(comparison: Comparison, i: int) -> str:
     return f"{comparison.i.index(i) + 1}: {place_words(comparison, i)}"
 
 
-def shown_row(comparison: Comparison) -> int:
-    """Row j of the shown ones that is nearest to the middle of the calcification."""
-    middle = central_cell(comparison)[1]
-    return min(comparison.j, key=lambda j: min(abs(j - middle), comparison.n_phi - abs(j - middle)))
+def shown_cell(comparison: Comparison) -> tuple[int, int]:
+    """Shown cell that is nearest to the middle of the calcification, or of the artery; counted from 1."""
+    i, j = _middle(comparison)
+    turn = comparison.n_phi
+    return (
+        min(comparison.i, key=lambda shown: abs(shown - i)),
+        min(comparison.j, key=lambda shown: min(abs(shown - j), turn - abs(shown - j))),
+    )
 
 
-def central_cell(comparison: Comparison) -> tuple[int, int]:
+def _middle(comparison: Comparison) -> tuple[int, int]:
     """Cell in the middle of what is calcified in most variants, or of the artery; counted from 1."""
     often = comparison.fields["calcified"].values.astype(int).sum(axis=0)
     inside = often == often.max()

@@ -9,7 +9,7 @@ from reports.blocks import Figure
 from reports.figures.cross_sections import Disc, Section, cross_sections
 from reports.result.load import Comparison
 from reports.sections.parts.models import headed
-from reports.sections.parts.places import central_cell, place_words
+from reports.sections.parts.places import place_words, shown_cell
 from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import listed
 from reports.wording.words import instant
@@ -27,8 +27,7 @@ def _disc(view: Comparison, model: str, variant: str, i: int) -> Disc:
 
 def sections_figure(comparison: Comparison, variants: list[str]) -> Figure:
     """Return the shown section nearest to the middle of the calcification, a row of discs a variant."""
-    middle = central_cell(comparison)[0]
-    i = min(comparison.i, key=lambda shown: abs(shown - middle))
+    i = shown_cell(comparison)[0]
     drawn = [
         Section(
             name,
