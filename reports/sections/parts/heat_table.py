@@ -15,7 +15,7 @@ from reports.wording.words import limit, quantity_words, statistic_words
 
 _FAR = 2.0  # times the limit
 _FEW = 3  # bands of which each is told what it owes to inflow and mesh; of more, those that fail
-_OF_FIELDS, _OF_CYCLE = 2, 1  # quantities that nothing judges: so many, those with the largest errors
+_OF_FIELDS, _OF_CYCLE = 1, 1  # quantities that nothing judges: so many, those with the largest errors
 _SHARES = {"matched": "with the inflow of 3D", "mesh": "uncertainty of the 3D mesh"}
 Line = tuple[list[str], dict[int, Shade]]
 Place = tuple[str, str]  # variant and model
