@@ -8,6 +8,7 @@ longest ago go when the folder exceeds its limit.
 import hashlib
 import os
 import time
+import tokenize
 import warnings
 import zipfile
 import zlib
@@ -24,6 +25,13 @@ from cases.arrays import Floats
 from solver.kernel_cache import usable_folder
 
 ABANDONED = 24 * 3600.0  # s after which an unfinished file belongs to a process that has died
+
+# What zipfile and NumPy raise on octets that are none of theirs: RuntimeError (NotImplementedError) of a
+# member that seems encrypted (of another method), TokenError and SyntaxError of an array's header.
+DAMAGE = (
+    *(OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile, zlib.error),
+    *(RuntimeError, OverflowError, MemoryError, SyntaxError, tokenize.TokenError),
+)
 
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -62,7 +70,7 @@ class KeptArrays:
             os.utime(path)
         except FileNotFoundError:  # also where another process just made room
             return None
-        except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile, zlib.error) as error:
+        except DAMAGE as error:
             path.unlink(missing_ok=True)
             raise DamagedEntryError(f"{path} was damaged ({error})") from error
         return found

@@ -14,6 +14,7 @@ from cases.values.kinds import Modulus, Pressure, counted, one_of, refused, regi
 
 Supports = Literal["quarters", "free"]
 MOST_ELEMENTS = 1000  # in one direction of a solid wall
+FEWEST_ALONG = 3  # of a solid wall, as of the flow's grid
 ElementCount = Annotated[int, counted(MOST_ELEMENTS)]
 
 
@@ -101,6 +102,8 @@ class SolidWall(Section):
     def _in_quarters(cls, elements: tuple[int, int, int]) -> tuple[int, int, int]:
         if elements[0] < 8 or elements[0] % 4:
             raise refused(elements[0], "a multiple of 4 from 8 on", key=(0,))
+        if elements[2] < FEWEST_ALONG:
+            raise refused(elements[2], f"a whole number from {FEWEST_ALONG} to {MOST_ELEMENTS}", key=(2,))
         return elements
 
 

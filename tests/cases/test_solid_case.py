@@ -30,6 +30,7 @@ def test_a_variant_becomes_a_solid_and_keeps_its_material(folder):
         (f"{{law: solid, {MATERIAL}, elements: [6, 3, 30]}}", "elements[1]: 6; allowed: a multiple of 4"),
         (f"{{law: solid, {MATERIAL}, elements: [24, 3]}}", "elements"),
         (f"{{law: solid, {MATERIAL}, elements: [24, 0, 30]}}", "elements[2]: 0; allowed"),
+        (f"{{law: solid, {MATERIAL}, elements: [24, 3, 2]}}", "elements[3]: 2; allowed"),
         ("{law: solid, youngs_modulus: 0.6 MPa, poisson_ratio: 0.5}", "poisson_ratio: 0.5; allowed"),
         (f"{{law: solid, {MATERIAL}, base: thick}}", "wall.base: only with law membrane"),
     ],

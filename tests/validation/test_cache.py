@@ -6,6 +6,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -65,6 +66,22 @@ class TestStorage:
         with pytest.raises(ValidationError, match=r"a\.npz was damaged"):
             store.get("a")
         assert store.get("a") is None
+
+    @pytest.mark.parametrize("flipped", [0x01, 0x08, 0xFF])
+    def test_a_damaged_octet_of_the_files_frame_is_noticed_or_harmless(self, store, flipped):
+        store.put("a", entry())
+        path = store.folder / "a.npz"
+        content = path.read_bytes()
+        with ZipFile(path) as stored:
+            frame = [*range(192), *range(stored.start_dir, len(content))]
+        told = 0
+        for at in frame:
+            path.write_bytes(content[:at] + bytes([content[at] ^ flipped]) + content[at + 1 :])
+            try:
+                assert store.get("a").facts == entry().facts
+            except ValidationError:
+                told += 1
+        assert told > len(frame) / 2
 
     @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.99])
     def test_a_file_cut_off_is_noticed(self, store, share):

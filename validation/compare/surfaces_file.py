@@ -43,10 +43,13 @@ def write_surfaces(
         If the file cannot be written.
     """
     try:
-        with h5py.File(path, "w") as file:
+        # in memory first: on a full disk HDF5 can neither write a file nor close it, and crashes
+        with h5py.File(path.name, "w", driver="core", backing_store=False) as file:
             _write(file.create_group("VTKHDF"), times, polygons, points, values)
-    except (OSError, RuntimeError) as error:  # HDF5 reports a full disk as either
-        raise ValidationError(f"{path.name}: cannot be written: {error}") from error
+            file.flush()
+            path.write_bytes(file.id.get_file_image())
+    except OSError as error:
+        raise ValidationError(f"{path.name}: cannot be written: {error.strerror or error}") from error
 
 
 def _write(

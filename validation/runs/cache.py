@@ -70,9 +70,13 @@ class Cache:
         """
         try:
             arrays = None if self.fresh else self._store.get(key)
+            return None if arrays is None else _entry(arrays)
         except DamagedEntryError as damage:
             raise ValidationError(str(damage)) from damage
-        return None if arrays is None else _entry(arrays)
+        except (KeyError, ValueError) as error:  # an array is missing: the file's directory is damaged
+            path = self.folder / f"{key}.npz"
+            path.unlink(missing_ok=True)
+            raise ValidationError(f"{path} was damaged ({error})") from error
 
     def put(self, key: str, entry: Entry) -> None:
         """Keep an entry, and make room for it.
@@ -157,7 +161,8 @@ def _dataset(
     def variable(n: str, about: Mapping[str, Any]) -> xr.Variable:
         key = f"{name}/{n}"
         known = packed.get(key)
-        values = xr.Variable(about["dims"], stored.get(key, known), about["attrs"])
+        found = stored[key] if known is None else stored.get(key, known)
+        values = xr.Variable(about["dims"], found, about["attrs"])
         return values if known is None else kept_with(values, known)
 
     kinds = {kind: {n: variable(n, about) for n, about in parts[kind].items()} for kind in parts}
