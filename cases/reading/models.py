@@ -47,7 +47,10 @@ def _name_problems(name: str, override: Node, models: Collection[str]) -> list[P
         why = ", which is the 3D reference"
     else:
         taken = [each for each in (REFERENCE, *models) if name.startswith(variable(each, ""))]
+        alike = [each for each in models if each.casefold() == name.casefold()]
         why = f", which begins as the fields of {taken[0]} do" if taken else ""
+        if alike[0] != name:
+            why = f", which differs from {alike[0]} in capitals only, as no file of some systems does"
     message = f"model name {shown(name)}{why}; allowed: another name"
     return [Problem(override.line, "models", message)] if why else []
 

@@ -1,5 +1,6 @@
 """The wall: how its pressure follows from its radius."""
 
+import math
 from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
@@ -14,6 +15,7 @@ from cases.values.kinds import Modulus, Pressure, counted, one_of, refused, regi
 
 Supports = Literal["quarters", "free"]
 MOST_ELEMENTS = 1000  # in one direction of a solid wall
+MOST_IN_ALL = 20_000  # their equations are factorised: more would take minutes and gigabytes
 FEWEST_ALONG = 3  # of a solid wall, as of the flow's grid
 ElementCount = Annotated[int, counted(MOST_ELEMENTS)]
 
@@ -104,6 +106,9 @@ class SolidWall(Section):
             raise refused(elements[0], "a multiple of 4 from 8 on", key=(0,))
         if elements[2] < FEWEST_ALONG:
             raise refused(elements[2], f"a whole number from {FEWEST_ALONG} to {MOST_ELEMENTS}", key=(2,))
+        count = math.prod(elements)
+        if count > MOST_IN_ALL:
+            raise refused(f"{count} elements", f"at most {MOST_IN_ALL} in all")
         return elements
 
 

@@ -73,6 +73,10 @@ def test_an_unknown_model_is_refused(folder):
         ("{a b: {}}", "models: model name a b; allowed: up to 64 letters, digits, - and _"),
         ("{reference: {}}", "models: model name reference, which is the 3D reference; allowed: another name"),
         ("{reference_2: {}}", "models: model name reference_2, which begins as the fields of reference do; "),
+        (
+            "{row: {}, Row: {}}",
+            "models: model name Row, which differs from row in capitals only, as no file ",
+        ),
         ("{a_b: {}, a: {}}", "models: model name a_b, which begins as the fields of a do; allowed: another"),
         ("{a: {}, b: {solver: {n_phi: 24}}}", "models.b.solver.n_phi: 24, but 48 in model a; allowed: the "),
         ("{a: {solver: {n_x: 60}}, b: }", "solver.n_x: 120, but 60 in model a; allowed: the same n_x in all"),

@@ -31,6 +31,10 @@ def test_a_variant_becomes_a_solid_and_keeps_its_material(folder):
         (f"{{law: solid, {MATERIAL}, elements: [24, 3]}}", "elements"),
         (f"{{law: solid, {MATERIAL}, elements: [24, 0, 30]}}", "elements[2]: 0; allowed"),
         (f"{{law: solid, {MATERIAL}, elements: [24, 3, 2]}}", "elements[3]: 2; allowed"),
+        (
+            f"{{law: solid, {MATERIAL}, elements: [1000, 3, 1000]}}",
+            "3000000 elements; allowed: at most 20000",
+        ),
         ("{law: solid, youngs_modulus: 0.6 MPa, poisson_ratio: 0.5}", "poisson_ratio: 0.5; allowed"),
         (f"{{law: solid, {MATERIAL}, base: thick}}", "wall.base: only with law membrane"),
     ],

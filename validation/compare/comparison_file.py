@@ -104,6 +104,15 @@ def _blocks(name: str, variant: int, packed: Packed) -> Iterator[tuple[str, tupl
         yield name, (variant, *first), block
 
 
+def _close(file: netCDF4.Dataset) -> None:
+    """Close a file unless it is closed already."""
+    try:
+        if file.isopen():
+            file.close()
+    except RuntimeError as error:  # what HDF5 still holds does not fit on the disk
+        raise _unwritable(error) from error
+
+
 @contextmanager
 def comparison_file(
     path: Path, variants: Sequence[str], attributes: Mapping[str, Any]
@@ -120,7 +129,7 @@ def comparison_file(
     except OSError as error:
         raise _unwritable(error) from error
     with ExitStack() as stack:
-        stack.callback(lambda: file.isopen() and file.close())
+        stack.callback(_close, file)
         stored = ComparisonFile(file, variants, attributes)
         yield stored
         try:
