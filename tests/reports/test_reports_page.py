@@ -193,10 +193,11 @@ def test_pointing_at_curves_and_maps_tells_values(opened: Opened) -> None:
     ):
         picture = page.locator(f"#{key} .plot {target}").first
         tip = page.locator(f"#{key} .plot > .tip:not([hidden])").first
-        for aside in range(0, 30, 3):  # what is drawn above meanwhile may move the picture away
+        for aside in range(0, 60, 3):  # until it is drawn, and nothing above moves it any more
             box = picture.bounding_box()
             assert box is not None
             picture.hover(position={"x": box["width"] / 4 + aside, "y": box["height"] / 2})
+            page.wait_for_timeout(250)
             if tip.is_visible():
                 break
         said = tip.inner_text()
