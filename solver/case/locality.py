@@ -36,7 +36,7 @@ def wall_locality_error(case: Case, tables: SectionWall | None, pressure: Floats
         return None
     if np.min(pressure) <= own.reference_pressure:
         return None
-    return whole.locality_error(tables, pressure)
+    return tables.locality_error(whole.radii(pressure - own.reference_pressure), pressure)
 
 
 def locality_warning(error: float | None) -> str | None:

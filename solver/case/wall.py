@@ -22,10 +22,10 @@ NONLINEAR_GROWTH = 0.25  # R/R₀ − 1 of the softest row of a nonlinear base a
 
 
 class WholeWall(NamedTuple):
-    """A wall that answers as a whole: tables of its sections, and their error in section pressures, Pa."""
+    """A wall that answers as a whole: tables of its sections, and R, m, under section loads P − P₀, Pa."""
 
     section_wall: Callable[[], SectionWall]
-    locality_error: Callable[[SectionWall, Floats], float]
+    radii: Callable[[Floats], Floats]
 
 
 @dataclass(frozen=True)
@@ -72,13 +72,11 @@ def whole_wall_of(case: Case, grid: Grid, own: WallOnGrid) -> WholeWall | None:
     if isinstance(case.wall, MembraneWall):
         membrane = _membrane(case, case.wall, grid, own)
         return WholeWall(
-            partial(membrane_tables.section_wall, membrane), partial(membrane_tables.locality_error, membrane)
+            partial(membrane_tables.section_wall, membrane), partial(membrane_tables.radii, membrane)
         )
     if isinstance(case.wall, SolidWall):
         solid = _solid(case, case.wall, grid, own)
-        return WholeWall(
-            partial(solid_tables.section_wall, solid), partial(solid_tables.locality_error, solid)
-        )
+        return WholeWall(partial(solid_tables.section_wall, solid), partial(solid_tables.radii, solid))
     return None
 
 

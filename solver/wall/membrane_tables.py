@@ -131,23 +131,3 @@ def _table(wall: MembraneWall, loads: Floats, found: Floats) -> SectionWall:
     radius = np.moveaxis((wall.radius + knots[:, None] * value).reshape(shape), 0, 1)
     slopes = np.asarray(np.moveaxis((value + slope).reshape(shape), 0, 1), dtype=float)
     return from_radii(wall.reference_pressure + knots, radius, slopes)
-
-
-def locality_error(wall: MembraneWall, tables: SectionWall, pressure: Floats) -> float:
-    """Largest relative error of R because a section's shape is taken from its own pressure alone.
-
-    Parameters
-    ----------
-    wall : MembraneWall
-    tables : SectionWall
-        From :func:`section_wall`.
-    pressure : ndarray (n_x,)
-        Section pressures P at one instant, Pa; above P₀.
-
-    Returns
-    -------
-    float
-        Against the membrane solved with this P(x).
-    """
-    exact = radii(wall, np.asarray(pressure) - wall.reference_pressure)
-    return float(np.max(np.abs(np.sqrt(tables.area(pressure)) / exact - 1)))

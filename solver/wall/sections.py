@@ -52,6 +52,18 @@ class SectionWall:
         """Last pressure, Pa."""
         return float(self.start + (self.values.shape[1] - 1) * self.step)
 
+    def locality_error(self, radii: Floats, pressure: Floats) -> float:
+        """Largest relative error of R because a section's shape is taken from its own pressure alone.
+
+        Parameters
+        ----------
+        radii : ndarray (n_x, n_phi)
+            R of the whole wall under these pressures, m.
+        pressure : ndarray (n_x,)
+            Section pressures P at one instant, Pa; above P₀.
+        """
+        return float(np.max(np.abs(np.sqrt(self.area(pressure)) / radii - 1)))
+
     @cached_property
     def last(self) -> "SectionWall":
         """The wall of the last section alone."""

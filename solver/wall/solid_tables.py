@@ -107,23 +107,3 @@ def _solved(wall: SolidWall) -> Floats:
         if len(found) < len(EXTRAPOLATION):
             raise
     return np.stack(found)
-
-
-def locality_error(wall: SolidWall, tables: SectionWall, pressure: Floats) -> float:
-    """Largest relative error of R because a section's shape is taken from its own pressure alone.
-
-    Parameters
-    ----------
-    wall : SolidWall
-    tables : SectionWall
-        From :func:`section_wall`.
-    pressure : ndarray (n_x,)
-        Section pressures P at one instant, Pa; above P₀.
-
-    Returns
-    -------
-    float
-        Against the solid under this P(x).
-    """
-    exact = radii(wall, np.asarray(pressure) - wall.reference_pressure)
-    return float(np.max(np.abs(np.sqrt(tables.area(pressure)) / exact - 1)))
