@@ -67,7 +67,7 @@ def write_vtkhdf(
     for part in _parts(plot, variables, states):
         path = folder / f"{part.name}.vtkhdf"
         times = plot.times[part.states].tolist()
-        write_over_time(path, "vtkUnstructuredGrid", times, part.mesh, advance)
+        write_over_time(path, times, part.mesh, advance)
 
 
 def check_times(plot: Plot, states: list[int]) -> None:

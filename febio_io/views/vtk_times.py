@@ -17,9 +17,9 @@ Mesh = Callable[[int], Any]
 class _Source(VTKPythonAlgorithmBase):
     """A source in VTK's sense: makes the mesh of the time that is asked for."""
 
-    def __init__(self, kind: str, times: list[float], mesh_at: Mesh, advance: Callable[[], None]) -> None:
+    def __init__(self, times: list[float], mesh_at: Mesh, advance: Callable[[], None]) -> None:
         super().__init__(  # type: ignore[no-untyped-call] # VTK's wrapping has no types
-            nInputPorts=0, nOutputPorts=1, outputType=kind
+            nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid"
         )
         self._times, self._mesh_at, self._advance = times, mesh_at, advance
         self._made = mesh_at(0)  # VTK's writer needs a mesh, whatever fails later
@@ -54,7 +54,7 @@ class _Source(VTKPythonAlgorithmBase):
 
 
 def write_over_time(
-    path: Path, kind: str, times: list[float], mesh_at: Mesh, advance: Callable[[], None] = lambda: None
+    path: Path, times: list[float], mesh_at: Mesh, advance: Callable[[], None] = lambda: None
 ) -> None:
     """Write meshes of all times into one VTKHDF file, for ParaView.
 
@@ -62,12 +62,10 @@ def write_over_time(
     ----------
     path : Path
         The file.
-    kind : {"vtkUnstructuredGrid", "vtkPolyData"}
-        VTK's name for what a mesh is.
     times : list of float
         Increasing, one or more.
     mesh_at : callable
-        Makes the mesh of a time, by its number.
+        Makes the mesh of a time, an unstructured grid, by its number.
     advance : callable, optional
         Called for each mesh that is written.
 
@@ -76,7 +74,7 @@ def write_over_time(
     FebioFileError
         If the file cannot be written; what making a mesh raises is raised again.
     """
-    source = _Source(kind, times, mesh_at, advance)
+    source = _Source(times, mesh_at, advance)
     writer = vtkHDFWriter()
     writer.SetInputConnection(source.GetOutputPort())
     writer.SetFileName(str(path))
