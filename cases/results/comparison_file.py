@@ -6,7 +6,6 @@ from cases.fields import FIELDS
 from cases.quantities import stored
 
 REFERENCE, ROM = "reference", "rom"  # 3D, and the reduced model where a case names none
-MODELS = (REFERENCE, ROM)
 WALL_STIFFNESS, ERROR_BUDGET, CALCIFIED = "wall_stiffness", "error_budget", "calcified"
 CURVE_DIMS = ("compare_time", "compare_x", "compare_phi", "exponent")
 

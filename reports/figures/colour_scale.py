@@ -11,7 +11,7 @@ from matplotlib.image import AxesImage
 
 from cases.arrays import Flags, Floats
 from reports.figures.colours import MISSING
-from reports.figures.sheet import LABEL_SIZE, Panel, across_panels, frames, line, numerals, ticks
+from reports.figures.sheet import Panel, across_panels, frames, line, numerals, ticks, upright
 
 BAR = 0.08  # inches; a bar's width
 _BEYOND = 0.22  # of the limit: how far the bar reaches beyond it
@@ -101,16 +101,7 @@ def bar(axis: Axes, place: tuple[float, float, float], scale: Scale, label: str)
     for value, words in marks:
         axis.text(left + BAR + 0.05, float(panel.up(value)), words, va="center", fontsize=6.5)
     longest = max((len(words) for _, words in marks), default=0)
-    axis.text(
-        left + BAR + 0.15 + 0.055 * longest,
-        bottom + height / 2,
-        label,
-        rotation=90,
-        ha="center",
-        va="center",
-        fontsize=LABEL_SIZE,
-        linespacing=1.1,
-    )
+    upright(axis, left + BAR + 0.15 + 0.055 * longest, bottom + height / 2, label)
 
 
 def cells(axis: Axes, panel: Panel, x: Floats, y: Floats, values: Floats, scale: Scale) -> None:

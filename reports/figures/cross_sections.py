@@ -102,15 +102,7 @@ def cross_sections(
             for panel, values in zip(panels[count + 1 :], apart[number], strict=True):
                 _fill(axis, panel, phi, share, section.reference.radius, values, differences)
             _outlines(axis, panels, phi, section)
-            axis.text(
-                0.10,
-                bottom + diameter / 2,
-                section.label,
-                rotation=90,
-                ha="center",
-                va="center",
-                fontsize=7.5,
-            )
+            sheet.upright(axis, 0.10, bottom + diameter / 2, section.label)
             if number == 0:
                 apart_names = [f"{name} − {reference}" for name in models]
                 sheet.headings(axis, panels, [reference, *models, *apart_names])

@@ -231,16 +231,13 @@ def ordinates(
     aside = min(max(aside, 0.19 + _LETTER * max(map(len, numbers), default=0)), first.left - 0.08)
     for tick, words in zip(marks, numbers, strict=True):
         axis.text(first.left - 0.05, float(first.up(tick)), words, ha="right", va="center", fontsize=SMALL)
-    axis.text(
-        first.left - aside,
-        first.bottom + first.height / 2,
-        label,
-        rotation=90,
-        ha="center",
-        va="center",
-        fontsize=LABEL_SIZE,
-        linespacing=1.1,
-    )
+    upright(axis, first.left - aside, first.bottom + first.height / 2, label)
+
+
+def upright(axis: Axes, across: float, up: float, label: str) -> None:
+    """Write a label that is read from below, centred at a place (inches)."""
+    style: dict[str, Any] = {"rotation": 90, "ha": "center", "va": "center"}
+    axis.text(across, up, label, fontsize=LABEL_SIZE, linespacing=1.1, **style)
 
 
 def abscissas(

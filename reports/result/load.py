@@ -12,7 +12,7 @@ from pydantic import TypeAdapter
 
 from cases.arrays import Floats
 from cases.results import comparison_file
-from cases.results.comparison_file import CALCIFIED, MODELS, REFERENCE, ROM, WALL_STIFFNESS, variable
+from cases.results.comparison_file import CALCIFIED, REFERENCE, ROM, WALL_STIFFNESS, variable
 from cases.results.provenance import Provenance, ReducedModelSettings
 from reports.errors import ReportError
 from reports.result.dataset import Attributes, opened, read_attributes, read_profiles, reduced_models
@@ -58,8 +58,6 @@ class Comparison:
     fields : xarray.Dataset
         Both models' pressure, radius, sector and section flow rate, profile exponent, and the error of the
         profile closest to 3D, over the cycle on all cells; which cells are calcified.
-    curves : xarray.Dataset
-        The same at columns `i`, all φ.
     profiles : xarray.Dataset
         Both models' axial velocity (m/s) at the shown cells over the cycle, over y = r/R.
     sections : xarray.Dataset
@@ -95,7 +93,6 @@ class Comparison:
     baselines: dict[str, str]
     sparse: bool
     fields: xr.Dataset
-    curves: xr.Dataset
     profiles: xr.Dataset
     sections: xr.Dataset
     maps: xr.Dataset
@@ -178,6 +175,7 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
     names = [name for name in wanted if name in dataset]
     fields = dataset[[*names, comparison_file.PROFILE_ERROR, CALCIFIED]].load()
     profiles, sections = read_profiles(path, dataset, columns, rows, states[0] if states else 0)
+    error_curves = dataset[comparison_file.PROFILE_ERROR_CURVE].load()
     views: dict[str, Comparison] = {}
     for model in models:
         seen = _in_view(fields, model)
@@ -190,12 +188,11 @@ def _comparison(directory: Path, dataset: xr.Dataset, metrics: Metrics, provenan
             n_phi=dataset.sizes["phi"],
             sparse=bool(dataset.attrs.get("sparse_reference")),
             fields=seen,
-            curves=seen.isel(x=columns),
             profiles=_in_view(profiles, model),
             sections=_in_view(sections, model),
             maps=seen.isel(time=states),
-            error_curves=dataset[comparison_file.PROFILE_ERROR_CURVE].load(),
-            pressure_range_over_section=_pressure_range(seen[_both(("pressure",))]),
+            error_curves=error_curves,
+            pressure_range_over_section=_pressure_range(seen[["reference_pressure", "rom_pressure"]]),
             wall_varies_around=_varies_around(dataset[variable(model, WALL_STIFFNESS)].load()),
             metrics=metrics.of(model),
             provenance=provenance,
@@ -211,10 +208,6 @@ def _in_view(fields: xr.Dataset, model: str) -> xr.Dataset:
     names = {str(n): single + str(n).removeprefix(own) for n in fields.data_vars if str(n).startswith(own)}
     others = [n for n in fields.data_vars if str(n).startswith(variable(REFERENCE, "")) or n == CALCIFIED]
     return fields[[*names, *others]].rename(names)
-
-
-def _both(names: Sequence[str]) -> list[str]:
-    return [variable(model, name) for model in MODELS for name in names]
 
 
 def _pressure_range(pressure: xr.Dataset) -> xr.Dataset:

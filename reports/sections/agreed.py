@@ -10,7 +10,7 @@ from reports.blocks import Figure
 from reports.figures.agreement import Agreement, agreement
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
-from reports.sections.overview import limit_of
+from reports.sections.parts.limits import limit_of
 from reports.sections.parts.models import columns_of, headed
 from reports.wording.csv_text import comma_separated
 from reports.wording.numbers import SPACE, fixed, listed, plus
@@ -61,10 +61,11 @@ def _figure(comparison: Comparison, model: str, quantities: list[str]) -> Figure
     named = headed(comparison, model)
     return Figure(
         f"agreement-{model}",
-        f"Agreement of {named} with 3D over all cells and states: parity above, the difference over the "
-        f"mean below (after Bland and Altman 1986) with bias and ±{SPACE}1.96 standard deviations: {said}.",
-        f"Two-dimensional histograms of {named} over 3D and of their difference over their mean for "
-        f"{listed(comparison.variants)}: {said}.",
+        f"Agreement of {named} with 3D over all cells and states: parity above, the difference in percent "
+        f"of 3D over the mean of both below (after Bland and Altman 1986) with bias and ±{SPACE}1.96 "
+        f"standard deviations: {said}.",
+        f"Two-dimensional histograms of {named} over 3D and of their difference in percent of 3D over their "
+        f"mean for {listed(comparison.variants)}: {said}.",
         partial(agreement, columns_of(comparison, comparison.variants), rows, named),
         comma_separated(
             ("quantity", "variant", "bias_percent", "spread_percent"),

@@ -12,7 +12,7 @@ from reports.sections.parts.error_budget import budget
 from reports.sections.parts.heat_table import heat_table
 from reports.sections.parts.limits import place_beyond
 from reports.sections.parts.models import model_words
-from reports.sections.parts.trust_figure import has_trust_map, trust_figure
+from reports.sections.parts.trust_figure import trust_figure
 from reports.wording.numbers import listed, share
 from reports.wording.words import error_text, limit, quantity_words, statistic_words
 
@@ -33,14 +33,13 @@ def answer(comparison: Comparison, variant: str) -> str:
     failing = {m: [row for row in rows if row.status != "OK"] for m, rows in judged.items()}
     good = [model for model, rows in failing.items() if not rows]
     bad = [model for model in comparison.models if model not in good]
+    local = "".join(f" {text}" for model in good if (text := _locally(comparison, model, judged[model])))
     what = listed(dict.fromkeys(quantity_words(row.quantity) for row in judged[comparison.models[0]]))
     if not bad:
-        local = "".join(f" {text}" for model in good if (text := _locally(comparison, model, judged[model])))
         return f"{opening}yes, for {what}, with {model_words(comparison, good)}{_nearest(judged)}.{local}"
     said = " ".join(_missed(comparison, model, failing[model]) for model in bad)
     if not good:
         return f"{opening}no. {said}"
-    local = "".join(f" {text}" for model in good if (text := _locally(comparison, model, judged[model])))
     return f"{opening}yes, for {what}, with {model_words(comparison, good)}.{local} {said}"
 
 
@@ -133,8 +132,7 @@ def section(comparison: Comparison) -> Blocks:
         blocks.append(Paragraph(sentence))
     if warnings:
         blocks.append(Warnings(warnings))
-    blocks += [trust_figure(comparison)] if has_trust_map(comparison) else []
-    blocks += [table] if (table := heat_table(comparison)) else []
+    blocks += [block for block in (trust_figure(comparison), heat_table(comparison)) if block]
     cost = cost_sentence(comparison)
     if cost:
         blocks.append(Paragraph(cost))

@@ -10,7 +10,7 @@ from reports.figures.tubes import Tube, tubes
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.parts.lumen import cells_table
-from reports.sections.parts.models import headed
+from reports.sections.parts.models import sides
 from reports.sections.parts.places import place_words
 from reports.wording.numbers import SPACE, fixed, listed
 from reports.wording.words import instant
@@ -63,17 +63,11 @@ def _middle(comparison: Comparison) -> float:
     return float(np.angle((share * np.exp(1j * comparison.fields["phi"].values)).sum()) % (2 * np.pi))
 
 
-def _sides(comparison: Comparison) -> list[tuple[str, Comparison, str]]:
-    """Words, view and name in it of 3D and of each reduced model."""
-    models = [(headed(comparison, model), comparison.of(model), "rom") for model in comparison.models]
-    return [("3D", comparison, "reference"), *models]
-
-
 def _lumens(comparison: Comparison, variant: str, state: int, seen: View) -> list[Tube]:
     """One variant's lumen in 3D and in each reduced model."""
     calcified = comparison.fields["calcified"].sel(variant=variant).values > 0
     found = []
-    for _, of, model in _sides(comparison):
+    for _, of, model in sides(comparison):
         radius = of.array(f"{model}_radius", variant)[state]
         drawn = seen.rest_radius + seen.exaggeration * (radius - seen.rest_radius)
         found.append(Tube(1e3 * drawn, 1e3 * radius, calcified))
@@ -85,7 +79,7 @@ def _narrowest(comparison: Comparison, state: int) -> str:
     said = []
     for name in comparison.variants:
         found = []
-        for words, of, model in _sides(comparison):
+        for words, of, model in sides(comparison):
             radius = 1e3 * of.array(f"{model}_radius", name)[state]
             i, j = np.unravel_index(int(radius.argmin()), radius.shape)
             where = place_words(comparison, int(i) + 1, int(j) + 1)
@@ -120,7 +114,7 @@ def section(comparison: Comparison) -> Blocks:
             1e3 * fields["x"].values,
             fields["phi"].values,
             seen.seen_from,
-            ("3D", *(headed(comparison, model) for model in comparison.models)),
+            [words for words, *_ in sides(comparison)],
             rows,
             "R (mm)",
         ),
@@ -149,6 +143,6 @@ def _csv(comparison: Comparison, state: int) -> str:
         {
             f"{name} {side} R_m": of.array(f"{model}_radius", name)[state]
             for name in comparison.variants
-            for side, of, model in _sides(comparison)
+            for side, of, model in sides(comparison)
         },
     )

@@ -12,7 +12,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.lumen import cells_table
-from reports.sections.parts.models import columns_of, headed
+from reports.sections.parts.models import columns_of, headed, sides
 from reports.sections.parts.places import place_words
 from reports.sections.parts.stated import mostly
 from reports.wording.numbers import ABSENT, SPACE, fixed, listed
@@ -158,12 +158,11 @@ def _maps(comparison: Comparison, variant: str, model: str) -> Floats:
 
 
 def _figure(comparison: Comparison) -> Figure:
-    lines = [("3D", [_maps(comparison, name, "reference") for name in comparison.variants])]
-    for model in comparison.models:
-        view = comparison.of(model)
-        if f"rom_{RADIAL}" in view.fields:
-            maps = [_maps(view, name, "rom") for name in comparison.variants]
-            lines.append((headed(comparison, model), maps))
+    lines = [
+        (words, [_maps(view, name, model) for name in comparison.variants])
+        for words, view, model in sides(comparison)
+        if f"{model}_{RADIAL}" in view.fields
+    ]
     fields = comparison.fields
     of_2d = " and as it follows from 2D" if len(lines) > 1 else ""
     return Figure(

@@ -12,7 +12,7 @@ from reports.figures.heat_maps import MapRow, Maps, heat_maps
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
 from reports.sections.parts.lumen import cells_table
-from reports.sections.parts.models import columns_of, headed
+from reports.sections.parts.models import columns_of, sides
 from reports.sections.parts.page_data import digits, pack
 from reports.sections.parts.places import place_words
 from reports.sections.parts.stated import mostly, stated_variants
@@ -45,21 +45,19 @@ def _worst_fit(comparison: Comparison, variants: Sequence[str]) -> str:
 def _spans(comparison: Comparison, variants: Sequence[str]) -> str:
     """Say between what exponents each model is."""
     said = []
-    for model in ("reference", *comparison.models):
-        view, name = (comparison, model) if model == "reference" else (comparison.of(model), "rom")
-        values = np.concatenate([_exponents(view, variant, name).ravel() for variant in variants])
+    for words, view, model in sides(comparison):
+        values = np.concatenate([_exponents(view, variant, model).ravel() for variant in variants])
         values = values[np.isfinite(values)]
         if values.size:
-            words = "3D" if model == "reference" else headed(comparison, model)
             said.append(f"{span(float(values.min()), float(values.max()), 2)} in {words}")
     return f"γ is {listed(said)}" if said else "γ is nowhere finite"
 
 
 def _figure(comparison: Comparison, variants: Sequence[str]) -> Figure:
-    lines = [("3D", [_exponents(comparison, name, "reference") for name in variants])]
-    for model in comparison.models:
-        view = comparison.of(model)
-        lines.append((headed(comparison, model), [_exponents(view, name, "rom") for name in variants]))
+    lines = [
+        (words, [_exponents(view, name, model) for name in variants])
+        for words, view, model in sides(comparison)
+    ]
     values = np.concatenate([each.ravel() for _, of in lines for each in of])
     values = values[np.isfinite(values)]
     limits = (float(values.min()), float(values.max())) if values.size else None

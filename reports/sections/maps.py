@@ -10,7 +10,7 @@ from reports.blocks import Figure, Interactive
 from reports.figures.limit_maps import LimitRow, limit_maps
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
-from reports.sections.overview import limit_of
+from reports.sections.parts.limits import limit_of
 from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import columns_of, headed
 from reports.sections.parts.places import place_words

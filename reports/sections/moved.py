@@ -11,7 +11,7 @@ from reports.blocks import Block, Column, Figure, Paragraph, Table
 from reports.figures.along_and_around import Change, ChangeRow, along_and_around
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
-from reports.sections.parts.models import headed, model_words
+from reports.sections.parts.models import headed, model_words, sides
 from reports.sections.parts.places import place_words, shown_cell
 from reports.sections.parts.stated import anywhere
 from reports.wording.csv_text import comma_separated
@@ -96,25 +96,23 @@ def _sentence(comparison: Comparison, variant: str) -> str:
 
 def _table(comparison: Comparison) -> Table | None:
     """Return what calcification changes of the numbers of the cycle, in 3D and in each model."""
-    sides = [
-        ("3D", comparison.models[0], "reference"),
-        *((headed(comparison, m), m, "rom") for m in comparison.models),
-    ]
     rows = []
     for quantity in of_cycle():
         unit, factor = DIFFERENCE_UNITS.get(FIELDS[quantity].unit, (FIELDS[quantity].unit, 1.0))
         found = [
             None if row is None or getattr(row, side) is None else factor * getattr(row, side)
             for name in comparison.changed
-            for _, model, side in sides
-            for row in (comparison.of(model).metrics.find(name, quantity, "change"),)
+            for _, view, side in sides(comparison)
+            for row in (view.metrics.find(name, quantity, "change"),)
         ]
         if unit != "ms" and any(value is not None for value in found):
             decimals = decimals_for(found, 3, most=3)
             rows.append((quantity_words(quantity), unit, *(plus(fixed(value, decimals)) for value in found)))
     if not rows:
         return None
-    columns = [Column(title, "number", name) for name in comparison.changed for title, _, _ in sides]
+    columns = [
+        Column(title, "number", name) for name in comparison.changed for title, *_ in sides(comparison)
+    ]
     return Table(
         "moved-table",
         f"What calcification changes of the cycle: variant minus {baseline_words(comparison)}.",

@@ -11,6 +11,7 @@ from reports.figures.artery_sketch import Place, artery_sketch
 from reports.figures.overview import Cycle, OverviewRow, overview
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
+from reports.sections.parts.limits import limit_of
 from reports.sections.parts.models import columns_of, headed
 from reports.sections.parts.places import in_calcification, place_words, shown_cell
 from reports.sections.parts.stated import anywhere, left_out
@@ -36,14 +37,6 @@ def _cycle(comparison: Comparison, variant: str, quantity: str, i: int, j: int) 
         ),
         comparison.calcified(variant, i, j if "phi" in FIELDS[quantity].dims else None),
     )
-
-
-def limit_of(comparison: Comparison, quantity: str) -> float | None:
-    """Tightest limit of an RMS error of a quantity, relative; None where none is declared."""
-    found = [
-        b.limit for b in comparison.provenance.bands if (b.quantity, b.statistic) == (quantity, "rms_error")
-    ]
-    return min(found, default=None)
 
 
 def _row(comparison: Comparison, quantity: str, variants: list[str], place: tuple[int, int]) -> OverviewRow:

@@ -21,7 +21,7 @@ from reports.result.load import Comparison, load
 from reports.sections import answer
 from reports.sections.parts.heat_table import heat_table
 from reports.sections.parts.limits import over_limit, place_beyond, worst_over_limits
-from reports.sections.parts.trust_figure import has_trust_map, trust_figure
+from reports.sections.parts.trust_figure import trust_figure
 
 SHAPE = (3, 6, 4)  # time, x, phi
 SMALL = (3, 2, 2)
@@ -210,7 +210,7 @@ def test_a_variant_that_is_not_judged_says_why(tmp_path: Path) -> None:
     assert "yes, for lumen radius, with the row and coupled models (nearest to its limit: lumen radius, " in (
         answer.answer(comparison, "none")
     )
-    assert not has_trust_map(comparison)
+    assert trust_figure(comparison) is None
     said = answer.answer(_not_periodic(tmp_path, "none"), "none").replace("\u00a0", " ")
     assert said == ("No calcification: not judged; 3D is not periodic (it changes by 8.30 % over a cycle).")
     table = heat_table(_not_periodic(tmp_path, "none"))
@@ -248,10 +248,12 @@ def test_limits_of_what_has_no_place_are_not_claimed_on_the_map(tmp_path: Path) 
     )
     comparison = _loaded(tmp_path / "some", ("row", "coupled"), bands=bands)
     mapped = "RMS error of lumen radius and RMS error of flow rate through the section"
-    assert f"({mapped}; other limits have no place on it)" in trust_figure(comparison).caption
+    drawn = trust_figure(comparison)
+    assert drawn is not None
+    assert f"({mapped}; other limits have no place on it)" in drawn.caption
     found = [over_limit(comparison, row) for row in comparison.metrics.bands() if row.variant == "local"]
     maps = [each for each in found if each is not None]
     assert len(maps) == 2
     assert np.array_equal(worst_over_limits(comparison, "local"), np.maximum(*maps))  # type: ignore[arg-type]
     derived = _bands(("mean_velocity", "max_error", 0.3, BOTH))
-    assert not has_trust_map(_loaded(tmp_path / "none", ("rom",), bands=derived))
+    assert trust_figure(_loaded(tmp_path / "none", ("rom",), bands=derived)) is None

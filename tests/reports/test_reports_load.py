@@ -38,7 +38,8 @@ def test_what_is_read_is_what_was_written(tmp_path: Path) -> None:
     assert found.variants == setup.variants
     assert (found.i, found.j) == (setup.i, setup.j)
     np.testing.assert_array_equal(
-        found.curves["rom_radius"].values, arrays["rom_radius"][:, :, [k - 1 for k in setup.i]]
+        found.fields["rom_radius"].values[:, :, [k - 1 for k in setup.i]],
+        arrays["rom_radius"][:, :, [k - 1 for k in setup.i]],
     )
     states = synthetic.states(setup, arrays)
     at = (2, states[1], setup.i[3] - 1, setup.j[2] - 1)

@@ -11,6 +11,14 @@ from reports.wording.numbers import SPACE, fixed, listed
 _MOST = 3  # stretches that are told one by one
 
 
+def limit_of(comparison: Comparison, quantity: str) -> float | None:
+    """Tightest limit of an RMS error of a quantity, relative; None where none is declared."""
+    found = [
+        b.limit for b in comparison.provenance.bands if (b.quantity, b.statistic) == (quantity, "rms_error")
+    ]
+    return min(found, default=None)
+
+
 def over_limit(comparison: Comparison, row: MetricRow) -> Floats | None:
     """Error of a band's quantity over the cycle, in each cell, over the band's limit.
 

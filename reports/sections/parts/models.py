@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from cases.results.metric_row import Model
 from reports.result.load import Comparison
 from reports.wording.numbers import listed
 
@@ -14,6 +15,12 @@ def model_words(comparison: Comparison, models: Iterable[str]) -> str:
     if len(comparison.models) == 1:
         return "the 2D model"
     return f"the {listed(names)} model{'s' if len(names) > 1 else ''}"
+
+
+def sides(comparison: Comparison) -> list[tuple[str, Comparison, Model]]:
+    """3D and each reduced model: its heading, the view that holds it, and its name there."""
+    models = [(headed(comparison, name), comparison.of(name)) for name in comparison.models]
+    return [("3D", comparison, "reference"), *((words, view, "rom") for words, view in models)]
 
 
 def columns_of(comparison: Comparison, variants: Iterable[str]) -> list[str]:

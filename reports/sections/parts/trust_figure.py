@@ -15,20 +15,15 @@ from reports.wording.numbers import listed, share
 from reports.wording.words import quantity_words, statistic_words
 
 
-def has_trust_map(comparison: Comparison) -> bool:
-    """Whether limits judge fields that the reference states everywhere, around the artery too."""
-    return comparison.n_phi > 1 and all(
-        (found := worst_over_limits(comparison, name)) is not None and bool(np.isfinite(found).all())
-        for name in comparison.variants
-    )
-
-
-def _ratios(comparison: Comparison) -> dict[str, list[Floats]]:
-    """Largest error over its limit in each cell: by model, one array a variant."""
-    found = {}
+def _ratios(comparison: Comparison) -> dict[str, list[Floats]] | None:
+    """Largest error over its limit in each cell: by model, one array a variant; None if one is unknown."""
+    found: dict[str, list[Floats]] = {}
     for model in comparison.models:
-        maps = [worst_over_limits(comparison.of(model), name) for name in comparison.variants]
-        found[model] = [each for each in maps if each is not None]
+        for name in comparison.variants:
+            ratio = worst_over_limits(comparison.of(model), name)
+            if ratio is None or not np.isfinite(ratio).all():
+                return None
+            found.setdefault(model, []).append(ratio)
     return found
 
 
@@ -44,9 +39,14 @@ def _mapped(comparison: Comparison) -> str:
     return listed(of_cells) + ("; other limits have no place on it" if others else "")
 
 
-def trust_figure(comparison: Comparison) -> Figure:
-    """Return the map of the largest error over its limit, a row of panels a model."""
-    ratios = _ratios(comparison)
+def trust_figure(comparison: Comparison) -> Figure | None:
+    """Return the map of the largest error over its limit, a row of panels a model.
+
+    None unless limits judge fields that the reference states everywhere, around the artery too.
+    """
+    ratios = _ratios(comparison) if comparison.n_phi > 1 else None
+    if ratios is None:
+        return None
     fields = comparison.fields
     said = "; ".join(
         f"{name}: "
