@@ -3,10 +3,10 @@
 import numpy as np
 
 from cases.arrays import Flags, Floats, Integers
-from solver.schemes.vectorisation import inlined_kernel, kernel
+from solver.schemes.vectorisation import allocating_kernel, inlined_kernel, kernel
 
 
-@kernel
+@allocating_kernel
 def add_elements(
     nodes: Integers,
     gradients: Floats,

@@ -19,17 +19,31 @@ Function = TypeVar("Function", bound=Callable[..., object])
 
 
 def _compiled(**options: Any) -> Callable[[Function], Function]:
-    """Decorator ``njit`` with options that its types leave out."""
-    decorator: Callable[[Function], Function] = njit(nogil=True, error_model="numpy", **options)
+    """Decorator ``njit`` with options that its types leave out.
+
+    Where ``fastmath``, ``error_model``, ``forceinline`` or ``_nrt`` is not stated, numba takes it from
+    the caller for which a kernel is compiled first (0.68.1, ``CPUTargetOptions.finalize``), and keeps the
+    result for all others: digits would depend on what ran first. So every kernel states all four. Without
+    ``_nrt`` it counts no references to the arrays of its arguments, which halves the time to compile one
+    that passes on tuples of forty, and cannot make arrays of its own.
+    """
+    stated: dict[str, Any] = {"error_model": "numpy", "fastmath": False, "forceinline": False, "_nrt": False}
+    stated |= options
+    decorator: Callable[[Function], Function] = njit(nogil=True, **stated)
     return decorator
 
 
 _KEPT = {"cache": True, "no_cfunc_wrapper": True}  # nothing calls a kernel by its C address
+exact_kernel = _compiled(**_KEPT)
 kernel = _compiled(**_KEPT, fastmath={"contract"})
-inlined_kernel = _compiled(**_KEPT, fastmath={"contract"}, forceinline=True)
-summing_kernel = _compiled(**_KEPT, fastmath={"contract", "reassoc"})
-# written out in its caller: as a kernel of its own it would be optimised once more with all that it calls
+summing_kernel = _compiled(**_KEPT, fastmath={"contract", "reassoc", "nsz"}, _nrt=True)
+allocating_kernel = _compiled(**_KEPT, fastmath={"contract"}, _nrt=True)
+exact_allocating_kernel = _compiled(**_KEPT, _nrt=True)
+# called by kernels only, and within them
+inlined_kernel = _compiled(**_KEPT, fastmath={"contract"}, forceinline=True, no_cpython_wrapper=True)
+# written out in their caller: kernels of their own would be optimised once more with all that they call
 part_of_kernel = _compiled(fastmath={"contract"}, inline="always")
+exact_part_of_kernel = _compiled(inline="always")
 
 
 def compare_rows() -> None:

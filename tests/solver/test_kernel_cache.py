@@ -1,11 +1,15 @@
 """Compiled kernels never outlive their sources."""
 
+import pkgutil
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
+from numba.core.registry import CPUDispatcher
 
+from solver import schemes
 from solver.kernel_cache import sources_digest
 
 ROOT = Path(__file__).parents[2]
@@ -71,3 +75,16 @@ def test_without_a_home_the_temporary_folder_serves(tmp_path):
     folder = Path(cache_folder(HOME=str(blocked), TMPDIR=str(tmp_path)))
     assert folder.parent.parent == tmp_path
     assert folder.is_dir()
+
+
+def test_no_kernel_takes_an_option_from_the_caller_that_compiles_it_first():
+    """Numba 0.68.1 would, and keep the digits that come of it for every other caller."""
+    kernels = {
+        kernel.py_func: kernel.targetoptions
+        for module in pkgutil.walk_packages(schemes.__path__, f"{schemes.__name__}.")
+        for kernel in vars(import_module(module.name)).values()
+        if isinstance(kernel, CPUDispatcher)
+    }
+    assert len(kernels) > 100
+    for function, options in kernels.items():
+        assert {"fastmath", "error_model", "forceinline", "_nrt"} <= options.keys(), function

@@ -6,17 +6,16 @@ between 0 and D.
 
 import math
 
-from numba import njit
-
 from cases.arrays import Floats
 from solver.schemes.godunov.layout import AVERAGE, AVERAGE_AXIS_RATIO, MAXIMUM, PARABOLIC, REST_VELOCITY
+from solver.schemes.vectorisation import exact_kernel
 
 GOLDEN = 0.3819660112501051  # (3 − √5)/2
 PRECISION = 1e-12  # of D, relative to its bracket
 MOST_ITERATIONS = 100
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def average(u: Floats) -> float:
     """D = (γ_avg + 2)/γ_avg · mean_φ(u), γ_avg = 2, m/s (2.2.56); four partial sums run side by side."""
     quarter = u.size // 4
@@ -31,7 +30,7 @@ def average(u: Floats) -> float:
     return AVERAGE_AXIS_RATIO * ((a + b) + (c + d)) / u.size
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def maximum(u: Floats, gamma: Floats) -> float:
     """D = max_φ (γ+2)/γ u, m/s (2.2.57); in backward flow the largest magnitude."""
     largest = 0.0
@@ -42,7 +41,7 @@ def maximum(u: Floats, gamma: Floats) -> float:
     return largest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def profile_distance(D: float, u: Floats, gamma: Floats) -> float:
     """Σ_j ‖v^c_j − v_j‖ in L²(0, 1), m/s: corrected profiles D(1 − y^g), g = 2u/(D − u), from the present.
 
@@ -59,7 +58,7 @@ def profile_distance(D: float, u: Floats, gamma: Floats) -> float:
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def least_squares(u: Floats, gamma: Floats) -> float:
     """D that minimises :func:`profile_distance`, m/s.
 
@@ -94,7 +93,7 @@ def least_squares(u: Floats, gamma: Floats) -> float:
     return sign * best
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def golden_section(begin: float, end: float, sign: float, u: Floats, gamma: Floats) -> float:
     """Minimiser of :func:`profile_distance` at ``sign`` times a place between ``begin`` and ``end``."""
     width = PRECISION * end
@@ -114,7 +113,7 @@ def golden_section(begin: float, end: float, sign: float, u: Floats, gamma: Floa
     return 0.5 * (begin + end)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def close_section_profiles(u: Floats, gamma: Floats, closure: int) -> int:
     """Make one cross-section continuous on the axis: overwrite γ by 2u/(D − u).
 

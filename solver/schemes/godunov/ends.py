@@ -7,8 +7,6 @@ The characteristic that leaves the artery is advanced from the values before the
 
 import math
 
-from numba import njit
-
 from solver.schemes.godunov.layout import (
     FLOW_INLET,
     NON_REFLECTING,
@@ -21,12 +19,13 @@ from solver.schemes.godunov.layout import (
 )
 from solver.schemes.godunov.sources import momentum_source
 from solver.schemes.godunov.steady import section_flow
+from solver.schemes.vectorisation import exact_kernel, exact_part_of_kernel
 
 FLOW_PRECISION = 1e-14  # relative, of the velocity that belongs to a flow rate
 MOST_ITERATIONS = 30
 
 
-@njit(cache=True, nogil=True, inline="always")
+@exact_part_of_kernel
 def source_at(fields: Fields, work: Workspace, parameters: Parameters, k: int) -> float:
     """s^x at the flat place ``k``."""
     return momentum_source(
@@ -41,7 +40,7 @@ def source_at(fields: Fields, work: Workspace, parameters: Parameters, k: int) -
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def advance_inlet(
     fields: Fields, work: Workspace, parameters: Parameters, width: int, prescribed: float
 ) -> None:
@@ -74,7 +73,7 @@ def advance_inlet(
         fields.flow[k] = velocity * fields.area[k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def velocity_of_flow(fields: Fields, work: Workspace, parameters: Parameters, flow_rate: float) -> float:
     """One velocity v of all rows with ½Δφ Σ v c/(λ₊ − v) = q, c the rows' characteristics in Q; by Newton."""
     first, sector, velocity = parameters.ghosts, 0.5 * parameters.dphi, 0.0
@@ -91,7 +90,7 @@ def velocity_of_flow(fields: Fields, work: Workspace, parameters: Parameters, fl
     return velocity
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def advance_outlet(
     fields: Fields, work: Workspace, parameters: Parameters, width: int, offset: float
 ) -> None:
@@ -121,7 +120,7 @@ def advance_outlet(
         close_rows(fields, work, parameters, width, offset)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def close_rows(fields: Fields, work: Workspace, parameters: Parameters, width: int, offset: float) -> None:
     """P = P_res + R_res Q in every row: λ₋a₂Q² + (λ₋b₂ − 1)Q + λ₋c₂ − c₁ = 0 (2.2.50–51)."""
     begin, face = (parameters.columns - 1) * width, (parameters.columns - 2) * width
@@ -138,7 +137,7 @@ def close_rows(fields: Fields, work: Workspace, parameters: Parameters, width: i
         fields.area[b] = (root + widening * fields.flow[b]) ** 2
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def close_windkessel(
     fields: Fields, work: Workspace, parameters: Parameters, width: int, old_flow: float
 ) -> None:
@@ -153,7 +152,7 @@ def close_windkessel(
     fields.reservoir[0] = held + (resistance - parameters.resistance) * new_flow
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def close_section(
     fields: Fields, work: Workspace, parameters: Parameters, width: int, offset: float, resistance: float
 ) -> None:

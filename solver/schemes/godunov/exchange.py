@@ -2,15 +2,14 @@
 
 import math
 
-from numba import njit
-
 from cases.arrays import Floats
 from solver.schemes.godunov.layout import Fields, Parameters
+from solver.schemes.vectorisation import exact_kernel, exact_part_of_kernel
 
 SERIES_LIMIT = 0.05  # below it the series of e^z up to z⁸ is exact to round-off
 
 
-@njit(cache=True, nogil=True, inline="always")
+@exact_part_of_kernel
 def exchange_exponent(
     A_below: float,
     A: float,
@@ -42,14 +41,14 @@ def exchange_exponent(
     return (1.0 + 2.0 * inverse_gamma) * inverse_A * bracket
 
 
-@njit(cache=True, nogil=True, inline="always")
+@exact_part_of_kernel
 def growth(z: float) -> float:
     """Return e^z for |z| below the series' limit."""
     tail = 1 / 24 + z * (1 / 120 + z * (1 / 720 + z * (1 / 5040 + z * (1 / 40320))))
     return 1 + z * (1 + z * (1 / 2 + z * (1 / 6 + z * tail)))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def exchange(fields: Fields, parameters: Parameters, rate: Floats, first: int, last: int) -> None:
     """Multiply Q by e^{hΔt} at the flat places ``first`` to ``last``; ``rate`` is scratch for hΔt."""
     n = last - first

@@ -10,9 +10,9 @@ n_x (outlet), lies left of cell f + 1.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from cases.arrays import Floats
+from solver.schemes.vectorisation import exact_kernel
 
 UPWIND, LAX_WENDROFF, VAN_LEER, SUPERBEE, MINMOD, MONOTONIZED_CENTRAL = range(6)
 FIXED, AVERAGE, MAXIMUM, LEAST_SQUARES = range(4)
@@ -128,7 +128,7 @@ def unflattened(flat: Floats, columns: int, n_phi: int) -> Floats:
     return np.array(wide[:, 1:-1] if n_phi > 1 else wide)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def fill_ghosts(values: Floats, columns: int, n_phi: int) -> None:
     """Copy the last row before the first and the first behind the last, in every column."""
     width = n_phi + 2

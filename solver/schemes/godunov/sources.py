@@ -2,12 +2,11 @@
 
 import math
 
-from numba import njit
-
 from solver.schemes.godunov.layout import Fields, Parameters, Workspace
+from solver.schemes.vectorisation import exact_kernel, exact_part_of_kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def exponent_slopes(fields: Fields, work: Workspace, columns: int, width: int, dx: float) -> None:
     """∂_xγ: central in cells, (−4γ_b + 3γ_1 + γ_2)/(3Δx) beside an end, one-sided on it."""
     gamma, slope = fields.exponent, work.exponent_slope
@@ -25,7 +24,7 @@ def exponent_slopes(fields: Fields, work: Workspace, columns: int, width: int, d
         slope[end - width + k] = (4.0 * b - 3.0 * c - d) / (3.0 * dx)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@exact_part_of_kernel
 def momentum_source(
     A: float,
     Q: float,
@@ -50,7 +49,7 @@ def momentum_source(
     return gradient * Q * u * exponent_slope - friction - wall * stiffness_slope
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def update(fields: Fields, work: Workspace, parameters: Parameters, begin: int, end: int, width: int) -> None:
     """Add fluctuations and sources of one step to the cells at flat places ``begin`` to ``end``."""
     A, Q = fields.area[begin:end], fields.flow[begin:end]
@@ -69,7 +68,7 @@ def update(fields: Fields, work: Workspace, parameters: Parameters, begin: int, 
         Q[k] += dt * source - courant * (from_left_Q[k] + from_right_Q[k])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def refresh(fields: Fields, work: Workspace) -> int:
     """Recompute √A, 1/√A and u everywhere; returns how many areas are not positive and finite."""
     A, Q, u = fields.area, fields.flow, work.velocity

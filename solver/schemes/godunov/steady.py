@@ -2,9 +2,8 @@
 
 from typing import NamedTuple
 
-from numba import njit
-
 from solver.schemes.godunov.layout import Fields, Parameters, Workspace
+from solver.schemes.vectorisation import exact_kernel
 
 
 class Stopping(NamedTuple):
@@ -22,7 +21,7 @@ class Stopping(NamedTuple):
     rest: float
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def section_flow(fields: Fields, parameters: Parameters, column: int) -> float:
     """½ΣQΔφ of one column, m³/s."""
     begin = column * (parameters.n_phi + 2 * parameters.ghosts) + parameters.ghosts
@@ -32,7 +31,15 @@ def section_flow(fields: Fields, parameters: Parameters, column: int) -> float:
     return 0.5 * parameters.dphi * total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
+def remember(fields: Fields, work: Workspace) -> None:
+    """Keep A and Q, to see by how much a step changes them."""
+    for k in range(fields.area.size):
+        work.area_before[k] = fields.area[k]
+        work.flow_before[k] = fields.flow[k]
+
+
+@exact_kernel
 def largest_end_change(fields: Fields, work: Workspace, parameters: Parameters) -> float:
     """Largest relative change of Q on the inlet and the outlet."""
     width = parameters.n_phi + 2 * parameters.ghosts
@@ -44,7 +51,7 @@ def largest_end_change(fields: Fields, work: Workspace, parameters: Parameters) 
     return largest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def is_steady(fields: Fields, work: Workspace, parameters: Parameters, stopping: Stopping) -> bool:
     """Whether the last step satisfies every criterion."""
     inflow = section_flow(fields, parameters, 0)

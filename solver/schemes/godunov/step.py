@@ -9,8 +9,6 @@ The scheme of the thesis (2.2.42–57). One step of ∂_t q + H ∂_x q = s with
 Stable while the Courant number max|λ|Δt/Δx is at most 1. All arrays are float64 in SI.
 """
 
-from numba import njit
-
 from cases.arrays import Floats
 from solver.schemes.godunov.continuity import close_section_profiles
 from solver.schemes.godunov.ends import advance_inlet, advance_outlet
@@ -28,11 +26,12 @@ from solver.schemes.godunov.layout import (
     fill_ghosts,
 )
 from solver.schemes.godunov.sources import exponent_slopes, refresh, update
-from solver.schemes.godunov.steady import Stopping, is_steady, section_flow
+from solver.schemes.godunov.steady import Stopping, is_steady, remember, section_flow
 from solver.schemes.godunov.waves import correct, decompose, decompose_end, uncorrected
+from solver.schemes.vectorisation import exact_kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def sweep_x(
     fields: Fields, work: Workspace, parameters: Parameters, width: int, inlet: float, offset: float
 ) -> None:
@@ -54,7 +53,7 @@ def sweep_x(
     update(fields, work, parameters, width, last + width, width)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def close(fields: Fields, work: Workspace, parameters: Parameters, width: int) -> tuple[int, int, int]:
     """Problem C in every column; returns a status and the place (column, row) of a failure."""
     if refresh(fields, work):
@@ -72,7 +71,7 @@ def close(fields: Fields, work: Workspace, parameters: Parameters, width: int) -
     return OK, 0, 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def set_wall(fields: Fields, ramp: Ramp, load: float) -> None:
     """β and ∂_xβ of a load between 0 and 1."""
     stiffness, slope = fields.stiffness, fields.stiffness_slope
@@ -83,7 +82,7 @@ def set_wall(fields: Fields, ramp: Ramp, load: float) -> None:
         slope[k] = first_slope[k] + load * (last_slope[k] - first_slope[k])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def step(
     fields: Fields, work: Workspace, parameters: Parameters, inlet: float, offset: float
 ) -> tuple[int, int, int]:
@@ -99,7 +98,7 @@ def step(
     return outcome
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def advance(
     fields: Fields,
     work: Workspace,
@@ -128,8 +127,7 @@ def advance(
         if n == 0 or loads[n] != loads[n - 1]:
             set_wall(fields, ramp, loads[n])
         if stopping.active:
-            work.area_before[:] = fields.area
-            work.flow_before[:] = fields.flow
+            remember(fields, work)
         status, column, row = step(fields, work, parameters, inlets[n], offsets[n])
         if status != OK:
             return status, column, row, n

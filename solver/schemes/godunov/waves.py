@@ -6,8 +6,6 @@ flat arrays, see :mod:`solver.schemes.godunov.layout`; flow is subcritical, λ�
 
 import math
 
-from numba import njit
-
 from solver.schemes.godunov.layout import (
     LAX_WENDROFF,
     MINMOD,
@@ -17,6 +15,7 @@ from solver.schemes.godunov.layout import (
     Fields,
     Workspace,
 )
+from solver.schemes.vectorisation import exact_kernel, exact_part_of_kernel
 
 # θ compares waves W = a(1, λ) by W·W', whose two entries have different units: aa'(c² + λλ') with c the unit
 # of speed. The thesis computes in centimetres, and its digits depend on it.
@@ -24,7 +23,7 @@ UNIT_SPEED_SQUARED = 0.01**2  # m²/s²
 NO_WAVE = 1e-140  # keeps 0/0 out of θ where there is no wave; squares of strengths are far larger
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def decompose(fields: Fields, work: Workspace, begin: int, end: int, width: int, stiffening: float) -> None:
     """Split the jumps over the interfaces at flat places ``begin`` to ``end`` into waves.
 
@@ -62,7 +61,7 @@ def decompose(fields: Fields, work: Workspace, begin: int, end: int, width: int,
         fastest[k] = max(fastest[k], abs(drift) + c)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def decompose_end(
     fields: Fields, work: Workspace, on: int, cell: int, interface: int, n: int, stiffening: float
 ) -> None:
@@ -94,7 +93,7 @@ def decompose_end(
         fields.fastest[f] = max(fields.fastest[f], abs(drift) + speed)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@exact_part_of_kernel
 def limited(limiter: int, up: float, own: float) -> float:
     """φ(θ) with θ = up/own, ``own`` ≥ 0, written so that no wave gives 0."""
     if limiter == VAN_LEER:
@@ -111,7 +110,7 @@ def limited(limiter: int, up: float, own: float) -> float:
     return max(0.0, min(min(0.5 * (1.0 + theta), 2.0), 2.0 * theta))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def correct(work: Workspace, begin: int, end: int, width: int, courant: float, limiter: int) -> None:
     """Fluctuations with limited corrections of the inner interfaces from ``begin`` to ``end``.
 
@@ -141,7 +140,7 @@ def correct(work: Workspace, begin: int, end: int, width: int, courant: float, l
         right_Q[k] = fast[k] * wave2 - flux_Q
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def uncorrected(work: Workspace, begin: int, end: int) -> None:
     """Fluctuations of the end interfaces, where the upwind method is forced."""
     for k in range(begin, end):

@@ -12,10 +12,10 @@ Columns are laid out as inlet, cells 1 … n_x, outlet.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from cases.arrays import Floats
 from solver.schemes.layout import REST_VELOCITY
+from solver.schemes.vectorisation import exact_allocating_kernel, exact_kernel, summing_kernel
 
 
 class Balance(NamedTuple):
@@ -36,7 +36,7 @@ class Balance(NamedTuple):
     axis_gap: float
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def _end_power(area: Floats, flow: Floats, pressure: Floats, density: float) -> float:
     """∑(P + ½ρu²)Q of one column."""
     total = 0.0
@@ -46,14 +46,14 @@ def _end_power(area: Floats, flow: Floats, pressure: Floats, density: float) -> 
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def _excess(area: Floats, flow: Floats, exponent: Floats, result: Floats) -> None:
     """(α−1)uQ with α − 1 = 1/(γ+1)."""
     for j in range(flow.size):
         result[j] = flow[j] * flow[j] / (area[j] * (exponent[j] + 1.0))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+@summing_kernel
 def _section(
     area: Floats, flow: Floats, exponent: Floats, nu: float, dphi: float, gap: Floats, wide: Floats
 ) -> tuple[float, float]:
@@ -83,7 +83,7 @@ def _section(
     return carried, lost
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def _gap_of(axis: Floats) -> float:
     """Largest distance from the mean over the mean; 0 at rest."""
     mean = float(np.mean(axis))
@@ -94,7 +94,7 @@ def _gap_of(axis: Floats) -> float:
     return _largest(axis) / abs(mean)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def _largest(values: Floats) -> float:
     largest = values[0]
     for j in range(1, values.size):
@@ -102,7 +102,7 @@ def _largest(values: Floats) -> float:
     return float(largest)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_kernel
 def _speeds(
     area: Floats, flow: Floats, exponent: Floats, slope: Floats, density: float, wave: Floats, stream: Floats
 ) -> None:
@@ -115,7 +115,7 @@ def _speeds(
         stream[j] = abs(u)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+@summing_kernel
 def _shape_power(
     area: Floats, flow: Floats, excess: tuple[Floats, Floats, Floats], before: float, after: float
 ) -> float:
@@ -128,7 +128,7 @@ def _shape_power(
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_allocating_kernel
 def closed_exponents(area: Floats, flow: Floats, exponent: Floats) -> None:
     """γ = 2u/(D − u), D = 2 mean_φ(u), of columns; 2 at rest, NaN where none is admissible."""
     u = np.empty(area.shape[1])
@@ -149,7 +149,7 @@ def closed_exponents(area: Floats, flow: Floats, exponent: Floats) -> None:
                 gamma[j] = np.nan
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+@summing_kernel
 def linear_wall(
     area: Floats, stiffness: Floats, radius: float, reference_pressure: float, slope: Floats
 ) -> float:
@@ -166,7 +166,7 @@ def linear_wall(
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@exact_allocating_kernel
 def balance(
     area: Floats,
     flow: Floats,

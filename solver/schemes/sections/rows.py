@@ -5,15 +5,13 @@ vectorise.
 """
 
 import numpy as np
-from numba import njit
 
 from cases.arrays import Floats
 from solver.schemes.layout import BEYOND_WALL_TABLE, NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY
+from solver.schemes.vectorisation import kernel, summing_kernel
 
-FAST = {"reassoc", "contract", "nsz"}  # sums in an order that vectorises, fused multiply-add
 
-
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def wall_row(table: Floats, start: float, step: float, pressure: float, area: Floats) -> int:
     """Find A of one section's cells at its pressure in a table (knots, 2, n_phi); OK or BEYOND_WALL_TABLE."""
     last = table.shape[0] - 2
@@ -32,7 +30,7 @@ def wall_row(table: Floats, start: float, step: float, pressure: float, area: Fl
     return OK
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def wall_sum(sums: Floats, start: float, step: float, pressure: float) -> tuple[float, float]:
     """ΣA and ΣdA/dP of one section at a pressure inside its table (knots, 2)."""
     position = (pressure - start) / step
@@ -44,7 +42,7 @@ def wall_sum(sums: Floats, start: float, step: float, pressure: float) -> tuple[
     return area, (d0 + t * (2.0 * curve + 3.0 * t * twist)) / step
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def wall_areas(
     table: Floats,
     sums: Floats,
@@ -64,7 +62,7 @@ def wall_areas(
     return OK, 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def weighted(old: Floats, new: Floats, theta: float, mean: Floats, totals: Floats) -> None:
     """θ-weighted mean of two 2-D arrays, and its sums over φ."""
     for i in range(old.shape[0]):
@@ -76,7 +74,7 @@ def weighted(old: Floats, new: Floats, theta: float, mean: Floats, totals: Float
         totals[i] = total
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def section_sums(values: Floats, totals: Floats) -> None:
     """Sum a 2-D array over φ."""
     for i in range(values.shape[0]):
@@ -86,7 +84,7 @@ def section_sums(values: Floats, totals: Floats) -> None:
         totals[i] = total
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def scaled_rows(values: Floats, factors: Floats, scaled: Floats) -> None:
     """Rows of a 2-D array times one factor each."""
     for i in range(values.shape[0]):
@@ -94,7 +92,7 @@ def scaled_rows(values: Floats, factors: Floats, scaled: Floats) -> None:
             scaled[i, j] = factors[i] * values[i, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def areas_between(old: Floats, new: Floats, theta: float, mean_area: Floats, face_area: Floats) -> None:
     """θ-weighted A in cells, and between them into the inside of rows with ghosts."""
     n = old.shape[1]
@@ -106,7 +104,7 @@ def areas_between(old: Floats, new: Floats, theta: float, mean_area: Floats, fac
                 face_area[i, j + 1] = 0.5 * (mean_area[i - 1, j] + mean_area[i, j])
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def _closure(
     area: Floats,
     velocity: Floats,
@@ -147,7 +145,7 @@ def _closure(
     return admissible == n
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def _fixed(inverse_area: Floats, alpha: Floats, damping: Floats, exponent: float, scale: float) -> None:
     """α and Δt S of one face for a given γ."""
     for j in range(alpha.size):
@@ -155,7 +153,7 @@ def _fixed(inverse_area: Floats, alpha: Floats, damping: Floats, exponent: float
         damping[j] = -2.0 * (exponent + 2.0) * scale * inverse_area[j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _at_rest(velocity: Floats) -> bool:
     count = 0
     for j in range(velocity.size):
@@ -163,7 +161,7 @@ def _at_rest(velocity: Floats) -> bool:
     return count == velocity.size
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _inadmissible_row(velocity: Floats, d: float) -> int:
     for j in range(velocity.size - 2):
         if not 0.0 < velocity[j + 1] / d < 1.0:
@@ -171,7 +169,7 @@ def _inadmissible_row(velocity: Floats, d: float) -> int:
     return 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def profiles(
     flow: Floats,
     face_area: Floats,
@@ -221,7 +219,7 @@ def profiles(
     return OK, 0, 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def momentum_fluxes(
     flow: Floats, mean_area: Floats, alpha: Floats, theta: float, flux: Floats, slopes: Floats
 ) -> None:
@@ -237,7 +235,7 @@ def momentum_fluxes(
         slopes[i] = 2.0 * theta * total / n
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def cross_flows(
     old_area: Floats,
     area: Floats,
@@ -282,7 +280,7 @@ def cross_flows(
             cross[first + k, n] = cross[first + k, 0]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def momentum_balance(
     old: Floats,
     new: Floats,
@@ -319,7 +317,7 @@ def momentum_balance(
         total[f] = sum_of_row
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def solve_rows(residual: Floats, face_area: Floats, pull: Floats, matrix: Floats, outlet_known: bool) -> None:
     """δQ of all rows from their momentum balance, δQ at the inlet and the pressure's change, in place.
 
@@ -348,7 +346,7 @@ def solve_rows(residual: Floats, face_area: Floats, pull: Floats, matrix: Floats
             residual[f, j] = (residual[f, j] - above * residual[f + 1, j]) * inverse
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def take_change(change: Floats, flow: Floats, totals: Floats) -> tuple[float, float]:
     """Add δQ to the iterate; sums of squares of the change and of the new flow, and its sums over φ."""
     squares, size = 0.0, 0.0
@@ -364,7 +362,7 @@ def take_change(change: Floats, flow: Floats, totals: Floats) -> tuple[float, fl
     return squares, size
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def copied(source: Floats, target: Floats) -> None:
     """Copy a 2-D array."""
     for i in range(source.shape[0]):

@@ -153,7 +153,7 @@ def drive_of(s: Stepping, p: Parameters, old: Floats, new: Floats, drive: Floats
     drive[last] *= 2.0
 
 
-@inlined_kernel
+@part_of_kernel
 def _evaluate(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
     """Everything that the balances need at the iterate; status, section and row."""
     n_x = fields.area.shape[0]
@@ -203,7 +203,7 @@ def _evaluate(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tupl
     return OK, 0, 0
 
 
-@inlined_kernel
+@part_of_kernel
 def _sweep(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, offset: float
 ) -> tuple[int, int, int, float]:
@@ -233,7 +233,9 @@ def _sweep(
     inlet_balance(p, s, ws, fields, value, float(drive[0]))
     outlet_slope = outlet_balance(p, s, ws, fields, float(drive[n_x]))
     a, b = outlet_law(p, s, ws, fields, offset)
-    outflow = float(np.sum(ws.iterate_flow[n_x]))
+    outflow = 0.0
+    for flow in ws.iterate_flow[n_x]:
+        outflow += flow
     gap = a + b * outflow - ws.iterate_pressure[n_x + 1]
     mass_balance(s, p, ws)
     advection_matrix(s, p, ws, outlet_slope)

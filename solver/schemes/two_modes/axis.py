@@ -7,15 +7,15 @@ with D = 2u; an end through which blood enters at a pressure knows no D of its o
 """
 
 import numpy as np
-from numba import njit
 
 from cases.arrays import Floats
 from solver.schemes.layout import PRESSURE_INLET
+from solver.schemes.vectorisation import kernel
 
 LOWER, MIDDLE, UPPER = 0, 1, 2
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _beyond_upwind(axis: Floats, f: int, speed: float) -> float:
     """Fromm's difference minus the upwind one, one-sided where D leaves; 0 beside the end where it enters.
 
@@ -33,7 +33,7 @@ def _beyond_upwind(axis: Floats, f: int, speed: float) -> float:
     return 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def axis_momentum(
     theta: float,
     carry: float,
@@ -92,7 +92,7 @@ def axis_momentum(
         lower[0], middle[0], upper[0], right[0] = 0.0, 1.0, 0.0, 2.0 * inlet_velocity
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def taken(solution: Floats, axis: Floats) -> tuple[float, float]:
     """Make the solution the iterate; norms of its change and of itself."""
     change, size = 0.0, 0.0

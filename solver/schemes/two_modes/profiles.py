@@ -1,13 +1,11 @@
 """What a row's u and its section's D give: momentum flux, friction and exchange around (numba kernels)."""
 
 import numpy as np
-from numba import njit
 
 from cases.arrays import Floats
 from solver.schemes.two_modes.layout import Modes
-from solver.schemes.vectorisation import inlined_kernel
+from solver.schemes.vectorisation import inlined_kernel, summing_kernel
 
-FAST = {"reassoc", "contract", "nsz"}  # sums in an order that vectorises, fused multiply-add
 SQUARES = 2.0  # exponent of a base whose powers need no logarithm
 
 
@@ -25,7 +23,7 @@ def momentum_slopes(modes: Modes, u: float, d: float) -> tuple[float, float]:
     return by_row, by_row + follows * (2.0 * modes.dd * d + modes.ud * u)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def fluxes(
     modes: Modes,
     flow: Floats,
@@ -59,7 +57,7 @@ def fluxes(
         section_slope[i] = 0.5 * theta * of_section / n
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def viscous_terms(
     modes: Modes,
     velocity: Floats,
@@ -113,7 +111,7 @@ def viscous_terms(
             excess[f, j] = 2.0 * scale * (second * bend - modes.wall_axis * d)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def exchange_share(face_area: Floats, scale: float, dphi: float, f: int) -> float:
     """Δt times half of the fastest rate at which exchange evens a section's rows out, –."""
     total, n = 0.0, face_area.shape[1] - 2
@@ -122,7 +120,7 @@ def exchange_share(face_area: Floats, scale: float, dphi: float, f: int) -> floa
     return float(16.0 / 3.0 * scale / (dphi * dphi) * total / n)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def section_means(velocity: Floats, share: float, axis: Floats) -> None:
     """D of the mean closure on all faces: the mean of u over a; ``velocity`` (faces, n_phi + 2)."""
     n = velocity.shape[1] - 2
@@ -133,7 +131,7 @@ def section_means(velocity: Floats, share: float, axis: Floats) -> None:
         axis[f] = total / (n * share)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=FAST)
+@summing_kernel
 def weighted_axis(theta: float, old: Floats, new: Floats, mean: Floats) -> None:
     """θ-weighted D."""
     for f in range(mean.size):

@@ -155,7 +155,7 @@ def _non_reflecting_law(p: Parameters, ws: Workspace, fields: Fields) -> None:
         a[j] = fields.base.outlet_pressure[j] - b[j] * known
 
 
-@inlined_kernel
+@part_of_kernel
 def _sweep(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_value: float, outlet_offset: float
 ) -> tuple[int, int, int]:
@@ -210,7 +210,7 @@ def _mean_rises(
         drive[f] *= scale / n
 
 
-@inlined_kernel
+@part_of_kernel
 def _follow_axis(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[float, float]:
     """D of the iterate's pressures and flows; norms of its change and of itself."""
     b, w = p.base, ws.base

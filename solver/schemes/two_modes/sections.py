@@ -48,7 +48,7 @@ from solver.schemes.two_modes.profiles import (
 from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel
 
 
-@inlined_kernel
+@part_of_kernel
 def _evaluate(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[int, int, int]:
     """Everything that the balances need at the iterate; status, section and row."""
     b, w = p.base, ws.base
@@ -144,7 +144,7 @@ def _to_sections(change: Floats, sums: Floats) -> None:
             change[f, j] += gap
 
 
-@inlined_kernel
+@part_of_kernel
 def _sweep(
     p: Parameters, s: Stepping, ws: Workspace, fields: Fields, value: float, offset: float
 ) -> tuple[int, int, int, float]:
@@ -176,7 +176,9 @@ def _sweep(
     inlet_sums(p, s, ws, fields, value, float(drive[0]))
     of_section, of_row = outlet_sums(p, s, ws, fields, float(drive[n_x]))
     at_rest, answer = law_of_outlet(p, s, ws, fields, offset)
-    outflow = float(np.sum(w.iterate_flow[n_x]))
+    outflow = 0.0
+    for flow in w.iterate_flow[n_x]:
+        outflow += flow
     gap = at_rest + answer * outflow - w.iterate_pressure[n_x + 1]
     mass_balance(s, b, w)
     advection_matrix(s, b, w, of_section)
@@ -195,7 +197,7 @@ def _sweep(
     return OK, 0, 0, squares
 
 
-@inlined_kernel
+@part_of_kernel
 def _follow_axis(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[float, float]:
     """D of the iterate's pressures and flows; norms of its change and of itself."""
     b, w = p.base, ws.base
