@@ -100,7 +100,7 @@ def test_help_names_what_was_called(name, capsys, monkeypatch):
         ("febio_io.feb", "febio_io.feb.command", signal.SIGTERM, ""),
         (
             "validation.compare",
-            "validation.compare.case",
+            "validation.compare.outcome",
             signal.SIGTERM,
             "interrupted; no result was written\n",
         ),

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -217,6 +218,7 @@ class TestUse:
 
         def finished(*options, declared=()):
             result = tmp_path / "result"
+            shutil.rmtree(result, ignore_errors=True)  # one that need not be computed again
             arguments = [str(written(made(*declared), tmp_path)), "--output", str(result), *options]
             assert compare.main(arguments) == 0
             about = json.loads((result / "provenance.json").read_text(encoding="utf-8"))

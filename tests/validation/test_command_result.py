@@ -17,7 +17,10 @@ from cases.fields import FIELDS
 from cases.quantities import tabulated
 from validation.compare import command as compare
 
-FILES = {"comparison.nc", "metrics.csv", "metrics.json", "provenance.json", "report.html", "report.pdf"}
+FILES = {
+    *("checksums.json", "comparison.nc", "metrics.csv", "metrics.json", "provenance.json"),
+    *("report.html", "report.pdf"),
+}
 
 
 @pytest.fixture(scope="module")

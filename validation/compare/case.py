@@ -3,7 +3,7 @@
 import json
 from collections.abc import Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from cases.reading.case_file import CaseFile
 from cases.reading.models import labelled
 from cases.reading.template import load_template
 from cases.results.comparison_file import ERROR_BUDGET, PROFILE_ERROR_CURVE, variable
-from cases.results.metric_row import MetricRow, Status
+from cases.results.metric_row import MetricRow
 from solver.case.model import inlet_signal
 from validation.compare.account import described
 from validation.compare.budget.inputs import input_uncertainty
@@ -30,9 +30,10 @@ from validation.compare.comparison import (
     without_fields,
 )
 from validation.compare.comparison_file import ComparisonFile, comparison_file
+from validation.compare.outcome import Outcome
 from validation.compare.paraview import write_walls
 from validation.compare.rendering import load_reports, write_reports
-from validation.errors import ValidationError
+from validation.compare.unchanged import determinants, seal
 from validation.metrics import rows as metrics
 from validation.metrics.assumptions import assumption_rows
 from validation.metrics.bands import band_rows
@@ -43,11 +44,9 @@ from validation.metrics.profile_curves import error_curves, profile_rows
 from validation.metrics.rows import Models, models_of
 from validation.reference.generated import check_computed, check_stated
 from validation.runs.cache import Cache
-from validation.runs.output import check_target, result_directory, write_json, write_metrics
+from validation.runs.output import result_directory, write_json, write_metrics
 from validation.runs.reduced_model import ReducedModelRun
 from validation.runs.variants import Watch, align_variants, resolved, run_variants, watching
-
-VERDICTS: tuple[Status, ...] = ("OK", "FAIL", "MISSING")
 
 
 def variant_rows(models: Models, run: VariantRun, attributes: Mapping[str, Any]) -> list[MetricRow]:
@@ -120,19 +119,6 @@ def prescribed_inflow(run: VariantRun) -> Floats | None:
     return signal if run.case.inlet.kind == "flow" else None
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """All rows of a comparison, and what a user should see besides."""
-
-    rows: list[MetricRow]
-    warnings: list[str]
-
-    @property
-    def bands(self) -> list[MetricRow]:
-        """Rows that judge a declared band."""
-        return [row for row in self.rows if row.status]
-
-
 def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache | None = None) -> Outcome:
     """Run one case file and leave its result in ``target``; see ``harness`` for what that holds.
 
@@ -147,6 +133,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
     """
     check_stated(file)
     check_computed(file.path, file.variants)
+    determined_by = determinants(file)
     with watching(cache) as watch, result_directory(target) as directory:
         file = replace(file, models=resolved(file.models, watch))
         check_variants(file.variants)
@@ -157,6 +144,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
         write_json(directory / "provenance.json", account.written())
         with watch.step("reports"):
             write_reports(directory)
+        seal(directory, determined_by, account.created, account.warnings)
     return Outcome(rows, [*watch.remarks, *account.warnings])
 
 
@@ -203,30 +191,3 @@ def _compared(file: CaseFile, directory: Path, watch: Watch) -> tuple[list[Metri
 def _store(stored: ComparisonFile, name: str, both: xr.Dataset, watch: Watch) -> None:
     with watch.step("comparison.nc"):
         stored.write(name, both)
-
-
-def targets(files: list[CaseFile], output: Path | None) -> list[Path]:
-    """Choose the result directory of each case.
-
-    Raises
-    ------
-    ValidationError
-        If two cases have one name, or a target must not be replaced.
-    """
-    names = [file.name for file in files]
-    if len(set(names)) < len(names):
-        raise ValidationError(f"case names must differ, found: {', '.join(names)}")
-    if output is not None and len(files) == 1:
-        found = [output]
-    else:
-        found = [(output or Path("results")) / name for name in names]
-    for target in found:
-        check_target(target)
-    return found
-
-
-def summary(file: CaseFile, target: Path, bands: list[MetricRow]) -> str:
-    """One line for people."""
-    counts = {status: sum(row.status == status for row in bands) for status in VERDICTS}
-    verdict = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "none declared"
-    return f"{file.name}: bands: {verdict}; report: {target / 'report.html'}, {target / 'report.pdf'}"

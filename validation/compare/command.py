@@ -1,14 +1,20 @@
 """``python -m validation.compare CASE.yaml``: what it is told, what it says, and its exit status."""
 
+from __future__ import annotations
+
 import argparse
 import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
 from cases.shell.interrupts import interrupts_deferred
+
+if TYPE_CHECKING:
+    from cases.reading.case_file import CaseFile
+    from validation.compare.outcome import Outcome
 
 
 def arguments(argv: Sequence[str]) -> argparse.Namespace:
@@ -24,9 +30,7 @@ def arguments(argv: Sequence[str]) -> argparse.Namespace:
         metavar="DIR",
         help="result directory (default: results/NAME; with several cases: DIR/NAME)",
     )
-    parser.add_argument(
-        "--fresh", action="store_true", help="compute everything, whatever earlier runs left in the cache"
-    )
+    parser.add_argument("--fresh", action="store_true", help="compute everything, whatever earlier runs left")
     parser.add_argument("--check", action="store_true", help="exit 1 unless every band holds")
     return parser.parse_args(argv)
 
@@ -42,24 +46,37 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(chosen: argparse.Namespace, command: list[str]) -> int:
     with interrupts_deferred():
         from cases.reading.case_file import load_case_file
-        from validation.compare.case import compare_case, summary, targets
-        from validation.compare.side_by_side import write_side_by_side
-        from validation.runs.cache import open_cache
+        from validation.compare.outcome import summary, targets
+        from validation.compare.unchanged import unchanged
 
-    cache = open_cache(chosen.fresh)
     files = [load_case_file(path) for path in chosen.cases]
     places = targets(files, chosen.output)
     rows: dict[str, Any] = {}
     broken = False
     for file, target in zip(files, places, strict=True):
-        outcome = compare_case(file, target, command, cache)
+        kept = None if chosen.fresh else unchanged(file, target)
+        outcome = kept or _compared(file, target, command, chosen.fresh)
         rows[file.name] = outcome.rows
         for warning in outcome.warnings:
             print(f"warning: {warning}", file=sys.stderr)
-        bands = outcome.bands
-        broken |= any(row.status in ("FAIL", "MISSING") for row in bands)
-        print(summary(file, target, bands))
+        broken |= any(row.status in ("FAIL", "MISSING") for row in outcome.bands)
+        print(summary(file, target, outcome))
     if len(files) > 1:
-        written = write_side_by_side(places[0].parent, rows)
-        print(f"{len(files)} cases side by side: {', '.join(map(str, written))}")
+        _write_side_by_side(places[0].parent, rows)
     return BAND_BROKEN if broken and chosen.check else COMPLETE
+
+
+def _compared(file: CaseFile, target: Path, command: list[str], fresh: bool) -> Outcome:
+    with interrupts_deferred():
+        from validation.compare.case import compare_case
+        from validation.runs.cache import open_cache
+
+    return compare_case(file, target, command, open_cache(fresh))
+
+
+def _write_side_by_side(folder: Path, rows: dict[str, Any]) -> None:
+    with interrupts_deferred():
+        from validation.compare.side_by_side import write_side_by_side
+
+    written = write_side_by_side(folder, rows)
+    print(f"{len(rows)} cases side by side: {', '.join(map(str, written))}")

@@ -15,8 +15,10 @@ from cases.shell.whole import write_text, write_whole_folder, writing
 from validation.errors import ValidationError
 
 MARK = "provenance.json"  # every finished result has one
+SEAL = "checksums.json"
 RESULT_FILES = {
     MARK,
+    SEAL,
     "ablation.csv",
     "ablation.json",
     "comparison.nc",
