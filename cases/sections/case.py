@@ -147,8 +147,13 @@ class Case(Section):
         if inlet is not None:
             _refuse_endless_runs(solver, inlet)
             _refuse_unresolved_energy(solver, inlet)
-        if "start" not in solver.model_fields_set and inlet is not None and outlet is not None:
-            return solver.model_copy(update={"start": _default_start(inlet, outlet)})
+        if inlet is not None and outlet is not None:
+            start = _default_start(inlet, outlet)
+            if "start" not in solver.model_fields_set:
+                return solver.model_copy(update={"start": start})
+            if solver.start == "periodic" and start == "rest":
+                allowed = "rest or steady with a ramp, and with a non-reflecting outlet"
+                raise refused(solver.start, allowed, key=("start",))
         return solver
 
     @field_validator("compare")

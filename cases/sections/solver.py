@@ -28,7 +28,7 @@ Closure = Literal["average", "maximum", "least_squares", "mean", "axis_momentum"
 CLOSURES_OF = MappingProxyType({"power": ("average",), "two_mode": ("mean", "axis_momentum")})
 GODUNOV_CLOSURES = ("average", "maximum", "least_squares")
 Profile = Literal["power", "two_mode"]
-Start = Literal["steady", "rest"]
+Start = Literal["steady", "rest", "periodic"]
 PressureOf = Literal["row", "section"]
 Limiter = Literal["van_leer", "superbee", "minmod", "upwind", "lax_wendroff"]
 Coefficients = Literal["corrected", "printed"]
@@ -75,8 +75,9 @@ class SolverSettings(Section):
     closure : str
         How the velocity profile closes the equations; each scheme and profile has its own.
     start : str
-        ``steady``: from the steady state of the boundary values at t = 0; ``rest``: from blood at rest. Where
-        none is stated, a `Case` sets rest if a boundary has a ramp, or the outlet is non-reflecting.
+        ``steady``: from the steady state of the boundary values at t = 0; ``rest``: from blood at rest;
+        ``periodic``: from the state that cycles repeat. Where none is stated, a `Case` sets rest if a
+        boundary has a ramp, or the outlet is non-reflecting.
     output_interval : float or None
         Time between saved states in s, at least the time step.
     limits : Limits or None
@@ -190,6 +191,13 @@ class GodunovSolver(SolverSettings):
         if closure not in GODUNOV_CLOSURES:
             raise refused(closure, f"{', '.join(GODUNOV_CLOSURES)} with scheme godunov")
         return closure
+
+    @field_validator("start")
+    @classmethod
+    def _start(cls, start: Start) -> Start:
+        if start == "periodic":
+            raise refused(start, "steady or rest with scheme godunov")
+        return start
 
 
 Solver = Annotated[SemiImplicitSolver, Tag("semi_implicit")] | Annotated[GodunovSolver, Tag("godunov")]

@@ -13,7 +13,6 @@ from solver.case.wall import walls_of
 from solver.errors import ModelError
 from solver.geometry.calcification import scaled_distance
 from solver.geometry.grid import Grid
-from solver.marching.steady import steady_state
 from solver.model.boundary import (
     Inlet,
     NonReflectingOutlet,
@@ -23,7 +22,7 @@ from solver.model.boundary import (
     WindkesselOutlet,
 )
 from solver.model.diagnostics import Limits, Monitor
-from solver.model.parameters import Model, State, uniform_state
+from solver.model.parameters import Model
 from solver.model.profiles import TwoModes
 from solver.model.waveform import FourierSeries, Ramped, Scaled, Signal, Waveform, constant
 
@@ -133,19 +132,6 @@ def two_modes_of(settings: Solver) -> TwoModes | None:
     if not isinstance(settings, SemiImplicitSolver) or settings.closure not in ("mean", "axis_momentum"):
         return None
     return TwoModes(settings.closure, settings.base_exponent)
-
-
-def initial_state(case: Case, model: Model) -> State:
-    """State from which a case starts: blood at rest at P₀, or the steady state of t = 0.
-
-    Raises
-    ------
-    RunFailure
-        If the steady state cannot be reached.
-    """
-    if case.solver.start == "rest":
-        return uniform_state(model, model.reference_pressure, 0.0)
-    return steady_state(model, float(model.inlet.signal(0.0)))
 
 
 def error_tolerance(case: Case) -> float | None:

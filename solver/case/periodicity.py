@@ -39,11 +39,12 @@ def cycle_change(case: Case, fields: Mapping[Any, Any]) -> float | None:
     changes = []
     for name in WATCHED:
         first, last = (np.asarray(fields[name][end]) for end in ends)
-        changes.append(_relative(first, last))
+        changes.append(relative_change(first, last))
     return max(changes)
 
 
-def _relative(first: Floats, last: Floats) -> float:
+def relative_change(first: Floats, last: Floats) -> float:
+    """Largest difference of two arrays over the largest value of the first, or of the last if it is zero."""
     size = np.max(np.abs(first)) or np.max(np.abs(last)) or 1.0
     return float(np.max(np.abs(last - first)) / size)
 

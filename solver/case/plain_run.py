@@ -6,8 +6,9 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.sections.case import Case
-from solver.case.model import error_tolerance, initial_state
+from solver.case.model import error_tolerance
 from solver.case.semi_implicit import azimuthal_flux_of
+from solver.case.start import initial_state
 from solver.geometry.symmetry import all_rows, fewer_rows
 from solver.marching.section_stepper import stepper_of
 from solver.marching.semi_implicit import equal_steps, implicitness

@@ -6,7 +6,8 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.sections.case import Case
-from solver.case.model import error_tolerance, initial_state, monitor_of
+from solver.case.model import error_tolerance, monitor_of
+from solver.case.start import initial_state
 from solver.marching.semi_implicit import snapshots
 from solver.marching.walk import Kept, Stop, kept_of, state_of
 from solver.model.cross_flow import azimuthal_flux

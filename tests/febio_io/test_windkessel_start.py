@@ -9,7 +9,7 @@ from feb_contents import Parsed
 from numpy.testing import assert_allclose
 from ruamel.yaml import YAML
 
-import solver.case.periodic_outlet as periodic
+import solver.case.start as start
 from cases.reading.case_file import load_case_file
 from febio_io.feb.command import main
 from febio_io.feb.from_case import ramp_curve
@@ -205,7 +205,7 @@ def test_the_command_tells_what_it_saves(tmp_path, capsys):
 
 
 def test_a_reduced_model_that_fails_leaves_no_model(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(periodic, "MOST_CYCLES", 1)
+    monkeypatch.setattr(start, "MOST_CYCLES", 1)
     case = dumped(tmp_path, "case", stated(THESIS, 5.0))
     assert main([str(case), "--output", str(tmp_path / "m.feb"), "--mesh", "8,2,1,3"]) == 2
     assert "the reduced model changes by" in capsys.readouterr().err
