@@ -19,7 +19,7 @@ from typing import Any
 from playwright.sync_api import Page, sync_playwright
 
 STEPS = 5
-ARGUMENTS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+ARGUMENTS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
 
 # Notes when the scripts are ready and how long the page could not answer.
 WATCH = """
