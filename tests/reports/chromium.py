@@ -18,7 +18,15 @@ import pytest
 
 PACKAGE = "@sparticuz/chromium@147.0.0"
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
-ARGUMENTS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+# All is drawn by software: WebGL where a page asks for it, and the page itself, which as a scene of WebGL would
+# take ten times as long.
+ARGUMENTS = [
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-gpu-compositing",
+    "--disable-gpu-rasterization",
+]
 _UNPACK = 'import chromium from "@sparticuz/chromium"; console.log(await chromium.executablePath());'
 
 

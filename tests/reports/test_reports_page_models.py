@@ -12,7 +12,7 @@ from reports.build import write_reports
 
 
 def test_the_chosen_model_is_what_all_pictures_compare(
-    browser: Browser, tmp_path: Path, small: synthetic.Setup
+    browser: Browser, tmp_path: Path, small: synthetic.Setup, undrawn: None
 ) -> None:
     synthetic.write(tmp_path, small, ("row", "coupled"))
     write_reports(tmp_path)
