@@ -18,8 +18,8 @@ import pytest
 
 PACKAGE = "@sparticuz/chromium@147.0.0"
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
-# All is drawn by software: WebGL where a page asks for it, and the page itself, which as a scene of WebGL would
-# take ten times as long.
+# All is drawn by software: WebGL where a page asks for it, and the page itself, which would take ten times as
+# long as a scene of WebGL.
 ARGUMENTS = [
     "--no-sandbox",
     "--use-angle=swiftshader",

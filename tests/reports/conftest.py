@@ -1,29 +1,27 @@
-import io
-import re
+import json
+import os
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import chromium
-import pypdf
 import pytest
 import synthetic_comparison as synthetic
+from pdf_words import words_of_pages
 from playwright.sync_api import Browser, sync_playwright
 
 from reports import build
 from reports.build import write_reports
+from reports.sweep import build as sweep_build
 
 
 @pytest.fixture(scope="session")
 def pdf_pages() -> Callable[[Path], list[str]]:
     """Text of each page of a PDF with single spaces between words."""
 
-    @cache
-    def texts(content: bytes) -> list[str]:
-        pages = pypdf.PdfReader(io.BytesIO(content)).pages
-        return [re.sub(r"\s+", " ", page.extract_text()) for page in pages]
-
+    texts = cache(words_of_pages)
     return lambda path: texts(path.read_bytes())
 
 
@@ -45,13 +43,28 @@ def browser() -> Iterator[Browser]:
         launched.close()
 
 
+def _written(
+    factory: pytest.TempPathFactory, name: str, setup: synthetic.Setup, models: tuple[str, ...]
+) -> tuple[Path, list[dict[str, Any]]]:
+    """Directory of a comparison with its reports, and its metrics; of two processes the first writes it."""
+    base = factory.getbasetemp()
+    shared = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / name
+    if not shared.exists():
+        own = factory.mktemp(name)
+        synthetic.write(own, setup, models)
+        write_reports(own)
+        try:
+            own.rename(shared)
+        except OSError:  # the other process was faster, and its reports are as good
+            if not shared.exists():
+                raise
+    return shared, json.loads((shared / "metrics.json").read_text())
+
+
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dict[str, Any]]]:
     """Directory of a comparison of three variants with its reports written, and its metrics."""
-    directory = tmp_path_factory.mktemp("comparison")
-    rows = synthetic.write(directory, synthetic.Setup(i=(1, 6, 12), j=(1, 4)))
-    write_reports(directory)
-    return directory, rows
+    return _written(tmp_path_factory, "comparison", synthetic.Setup(i=(1, 6, 12), j=(1, 4)), ("rom",))
 
 
 def _limit(quantity: str, limit: float, *variants: str, statistic: str = "rms_error") -> dict[str, Any]:
@@ -71,17 +84,16 @@ def two_models(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dic
         _limit("largest_pressure_difference", 0.147, "local", statistic="cycle"),
     ]
     setup = synthetic.Setup(n_x=6, n_y=7, i=(1, 3, 6), j=(1, 4), bands=bands, budget=True, costs=True)
-    directory = tmp_path_factory.mktemp("two models")
-    rows = synthetic.write(directory, setup, ("row", "coupled"))
-    write_reports(directory)
-    return directory, rows
+    return _written(tmp_path_factory, "two models", setup, ("row", "coupled"))
 
 
 @pytest.fixture
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Reports get an empty drawing for every figure: for tests of what is not drawn."""
     blank = '<?xml version="1.0"?><svg xmlns="http://www.w3.org/2000/svg" width="9pt" height="9pt"></svg>'
-    monkeypatch.setattr(build, "draw", lambda drawings, _: dict.fromkeys(drawings, blank))
+    for module in (build, sweep_build):
+        monkeypatch.setattr(module, "draw", lambda drawings, _: dict.fromkeys(drawings, blank))
+    monkeypatch.setattr(build, "helper", nullcontext)
 
 
 @pytest.fixture

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pypdf
 import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
@@ -23,21 +22,18 @@ MODELS = ("row", "coupled")
 PLACES = [(variant, model) for variant in synthetic.VARIANTS for model in MODELS]
 
 
-def _of_pdf(directory: Path) -> str:
-    return pypdf.PdfReader(directory / "report.pdf").pages[0].extract_text()
-
-
 def _of_html(directory: Path) -> str:
     source = (directory / "report.html").read_text(encoding="utf-8")
     section = source.partition('<h2 id="answer">')[2].partition("</section>")[0]
     return unescape(re.sub(r"<[^>]+>", " ", section))
 
 
-@pytest.fixture(scope="module", params=[_of_pdf, _of_html], ids=["PDF", "HTML"])
-def page(request: pytest.FixtureRequest, two_models: Finished) -> str:
+@pytest.fixture(scope="module", params=["PDF", "HTML"])
+def page(request: pytest.FixtureRequest, two_models: Finished, pdf_pages: Callable[[Path], list[str]]) -> str:
     """What a reader finds on page 1, with single spaces."""
-    read: Callable[[Path], str] = request.param
-    return re.sub(r"\s+", " ", read(two_models[0]).replace("\u00a0", " "))
+    directory, _ = two_models
+    said = pdf_pages(directory / "report.pdf")[0] if request.param == "PDF" else _of_html(directory)
+    return re.sub(r"\s+", " ", said.replace("\u00a0", " "))
 
 
 @pytest.fixture(scope="module")

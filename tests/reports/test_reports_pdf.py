@@ -2,6 +2,7 @@
 
 import io
 import re
+import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -49,6 +50,13 @@ def test_what_is_read_has_few_pages_and_the_appendix_begins_one(
     assert len(reader.pages) > page
     assert all(before < page for title, before in outline if title[0].isdigit())
     assert pdf_pages(two_models[0] / "report.pdf")[page - 1].startswith(first)
+
+
+def test_no_word_is_lost_where_drawings_are_not_read(
+    reader: pypdf.PdfReader, two_models: Finished, pdf_pages: Callable[[Path], list[str]]
+) -> None:
+    first = re.sub(r"\s+", " ", reader.pages[0].extract_text())
+    assert pdf_pages(two_models[0] / "report.pdf")[0] == first
 
 
 def _printed(section: Section) -> Iterator[tuple[str, bool]]:
@@ -109,10 +117,10 @@ def test_the_case_file_and_the_data_of_every_figure_are_attached(
 
 
 @pytest.fixture(scope="module")
-def again(two_models: Finished) -> tuple[bool, list[bytes]]:
+def again(two_models: Finished, tmp_path_factory: pytest.TempPathFactory) -> tuple[bool, list[bytes]]:
     """Whether the same reports are written again, and the PDF's pages as small pictures."""
-    written = [two_models[0] / name for name in ("report.html", "report.pdf")]
-    before = [path.read_bytes() for path in written]
+    before = [(two_models[0] / name).read_bytes() for name in ("report.html", "report.pdf")]
+    copied = shutil.copytree(two_models[0], tmp_path_factory.mktemp("again") / "copy")
     pages: list[bytes] = []
     compile_pdf = typst.compile
 
@@ -125,7 +133,7 @@ def again(two_models: Finished) -> tuple[bool, list[bytes]]:
 
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(typst, "compile", also_as_pictures)
-        write_reports(two_models[0])
+        written = write_reports(copied)
     return [path.read_bytes() for path in written] == before, pages
 
 

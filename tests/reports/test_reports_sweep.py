@@ -110,7 +110,7 @@ def test_the_table_of_bands_counts_the_samples(tmp_path: Path) -> None:
 
 
 def test_the_headline_counts_samples_within_all_bands(
-    tmp_path: Path, pdf_text: Callable[[Path], str]
+    tmp_path: Path, pdf_text: Callable[[Path], str], undrawn: None
 ) -> None:
     table = synthetic.write(tmp_path / "s")
     _, pdf = write_sweep_page(tmp_path / "s")
@@ -134,9 +134,17 @@ def test_samples_of_any_order_of_parts_are_put_in_their_own(tmp_path: Path) -> N
     assert load_sweep(tmp_path / "s").samples["sample"].tolist() == list(range(64))
 
 
-def test_indices_are_those_of_the_study(tmp_path: Path, pdf_text: Callable[[Path], str]) -> None:
-    synthetic.write(tmp_path / "s", synthetic.Setup(kind="saltelli", indices=True))
-    sweep = load_sweep(tmp_path / "s")
+@pytest.fixture(scope="module")
+def with_indices(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of a sweep with Sobol indices and its page."""
+    folder = tmp_path_factory.mktemp("with indices") / "s"
+    synthetic.write(folder, synthetic.Setup(kind="saltelli", indices=True))
+    write_sweep_page(folder)
+    return folder
+
+
+def test_indices_are_those_of_the_study(with_indices: Path, pdf_text: Callable[[Path], str]) -> None:
+    sweep = load_sweep(with_indices)
     rows = _table(sweep, "indices-1-table").rows
     assert [_plain(text) for text in rows[0][1:]] == [
         "Young's modulus of the calcification",
@@ -146,7 +154,7 @@ def test_indices_are_those_of_the_study(tmp_path: Path, pdf_text: Callable[[Path
         "± 0.060",
     ]
     assert "largest error of the lumen radius" not in {row[0] for row in rows}  # it has no index
-    text = _plain(pdf_text(write_sweep_page(tmp_path / "s")[1]))
+    text = _plain(pdf_text(with_indices / "index.pdf"))
     assert "most by Young's modulus of the calcification (ST 0.70 ± 0.06)" in text.replace("’", "'")
 
 
@@ -162,11 +170,10 @@ def test_a_running_sweep_without_bands_or_indices_has_a_page(tmp_path: Path) -> 
     assert "The design gives no Sobol indices" in html
 
 
-def test_the_page_is_the_same_for_the_same_folder(tmp_path: Path) -> None:
-    synthetic.write(tmp_path / "s", synthetic.Setup(kind="saltelli", indices=True))
-    first = [path.read_bytes() for path in write_sweep_page(tmp_path / "s")]
-    assert first == [path.read_bytes() for path in write_sweep_page(tmp_path / "s")]
-    assert {path.name for path in (tmp_path / "s").iterdir()} == {
+def test_the_page_is_the_same_for_the_same_folder(with_indices: Path) -> None:
+    first = [(with_indices / name).read_bytes() for name in ("index.html", "index.pdf")]
+    assert first == [path.read_bytes() for path in write_sweep_page(with_indices)]
+    assert {path.name for path in with_indices.iterdir()} == {
         "index.html",
         "index.pdf",
         "samples",
@@ -193,14 +200,16 @@ def _run(monkeypatch: pytest.MonkeyPatch, *directories: Path) -> int:
 
 
 def test_the_command_recognises_a_sweep(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], undrawn: None
 ) -> None:
     synthetic.write(tmp_path / "s")
     assert _run(monkeypatch, tmp_path / "s") == 0
     assert capsys.readouterr().out == f"{tmp_path / 's' / 'index.html'}\n{tmp_path / 's' / 'index.pdf'}\n"
 
 
-def test_a_gallery_leads_to_sweeps_the_worst_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_gallery_leads_to_sweeps_the_worst_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, undrawn: None
+) -> None:
     synthetic.write(tmp_path / "fine", synthetic.Setup(against=None, title="fine"))
     synthetic.write(tmp_path / "bad", synthetic.Setup(title="bad"))
     assert _run(monkeypatch, tmp_path / "fine", tmp_path / "bad") == 0
