@@ -17,9 +17,15 @@ BASE = synthetic.Setup(
 )
 
 
+_MADE: dict[str, Report] = {}  # several tests look at the same report
+
+
 def _report(folder: Path, models: tuple[str, ...] = ("rom",), **changes: Any) -> Report:
-    synthetic.write(folder, dataclasses.replace(BASE, **changes), models)
-    return report(load(folder))
+    shape = f"{models} {changes}"
+    if shape not in _MADE:
+        synthetic.write(folder, dataclasses.replace(BASE, **changes), models)
+        _MADE[shape] = report(load(folder))
+    return _MADE[shape]
 
 
 def _section(content: Report, key: str) -> Section:
