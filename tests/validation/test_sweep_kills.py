@@ -18,6 +18,7 @@ from small_sweep import records, small_study, study_file, swept
 from validation.sweep.chunk import Plan
 from validation.sweep.cluster import SETTINGS, connected
 from validation.sweep.command import main
+from validation.sweep.folder import PAGE_FILES
 from validation.sweep.samples import Sample
 from validation.sweep.stream import computed
 
@@ -38,6 +39,17 @@ def expected(tmp_path_factory):
 @pytest.fixture
 def study(tmp_path):
     return study_file(tmp_path, parameters=PARAMETERS, overrides={"solver": SOLVER})
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Pages of another test."""
+
+    def write(folder):
+        for name in PAGE_FILES:
+            (folder / name).write_text("a page", encoding="utf-8")
+
+    monkeypatch.setattr("reports.sweep.write_sweep_page", write)
 
 
 def started(study: Path, *options: str) -> subprocess.Popen[str]:
@@ -66,13 +78,14 @@ def parts(study: Path) -> list[Path]:
     return list((study.parent / "out/samples").glob("part-*.parquet"))
 
 
+def children(pid: int) -> list[int]:
+    tasks = Path(f"/proc/{pid}/task").glob("*/children")
+    return [int(word) for task in tasks for word in task.read_text().split()]
+
+
 def workers(process: subprocess.Popen[str]) -> list[int]:
-    """Processes that compute, by their command."""
-    children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
-    found = [
-        int(word) for task in children.parents[1].glob("*/children") for word in task.read_text().split()
-    ]
-    return [pid for pid in found if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
+    """Processes that compute: forks of the one that has imported what they need."""
+    return [fork for child in children(process.pid) for fork in children(child)]
 
 
 def alive(pid: int) -> bool:
@@ -97,7 +110,7 @@ def test_a_worker_that_is_killed_loses_and_doubles_nothing(study, expected):
 
 
 @pytest.mark.long  # the interrupt below leaves the same parts, from which the same command goes on
-def test_a_client_that_is_killed_goes_on_where_it_was(study, expected):
+def test_a_client_that_is_killed_goes_on_where_it_was(study, expected, undrawn):
     process = started(study)
     wait_for(lambda: len(parts(study)) >= 2, process)
     running = workers(process)
@@ -112,7 +125,7 @@ def test_a_client_that_is_killed_goes_on_where_it_was(study, expected):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.long)])
-def test_an_interrupt_keeps_what_is_done_and_leaves_no_process(study, expected, number):
+def test_an_interrupt_keeps_what_is_done_and_leaves_no_process(study, expected, undrawn, number):
     process = started(study)
     wait_for(lambda: len(parts(study)) >= 2, process)
     running = workers(process)
@@ -133,7 +146,7 @@ def test_an_interrupt_keeps_what_is_done_and_leaves_no_process(study, expected, 
     assert all(part.stat().st_mtime_ns == time for part, time in kept.items())
 
 
-def test_a_scheduler_that_is_there_already(study, expected, capsys):
+def test_a_scheduler_that_is_there_already(study, expected, undrawn):
     with LocalCluster(n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None) as cluster:
         place = ["--output", str(study.parent / "out"), "--scheduler", cluster.scheduler_address]
         assert main([str(study), *place]) == 0

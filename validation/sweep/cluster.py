@@ -10,12 +10,11 @@ from distributed import Client, LocalCluster
 
 from validation.errors import ValidationError
 from validation.runs.sources import code_digest
+from validation.sweep.forks import METHOD, ONE_THREAD, import_ahead
 
 PROCESSES, THREADS = "processes", "threads"
 CONNECT_WITHIN = "10s"
 CLOSE_WITHIN = 5.0  # s
-LIBRARIES_WITH_THREADS = ("OMP", "OPENBLAS", "MKL", "NUMBA")
-ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES_WITH_THREADS}
 # for each worker process: a terminal sends Ctrl-C to it too, but its cluster is to end it, and what tornado
 # says of a heartbeat that this cuts short is no user's matter
 IN_WORKERS = """
@@ -24,6 +23,7 @@ signal.signal(signal.SIGINT, signal.SIG_IGN)
 logging.getLogger("tornado.application").setLevel(logging.CRITICAL)
 """
 SETTINGS = {
+    "distributed.worker.multiprocessing-method": METHOD,
     "distributed.nanny.pre-spawn-environ": {**ONE_THREAD, "MALLOC_TRIM_THRESHOLD_": "65536"},
     "distributed.scheduler.allowed-failures": 3,  # workers that may die with one task
     "distributed.admin.large-graph-warning-threshold": "1GiB",  # a reference travels once
@@ -64,6 +64,8 @@ def connected(scheduler: str, workers: int, tell: Callable[[str], None]) -> Iter
 
 @contextmanager
 def _local(kind: str, workers: int) -> Iterator[LocalCluster]:
+    if kind == PROCESSES:
+        import_ahead()
     own = {"n_workers": workers, "threads_per_worker": 1}
     shared = {"n_workers": 1, "threads_per_worker": workers}
     cluster = LocalCluster(

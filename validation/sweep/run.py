@@ -21,9 +21,11 @@ from validation.sweep.folder import (
     begun,
     claimed,
     cleared,
+    part_path,
     parts_present,
     schema_of,
 )
+from validation.sweep.forks import import_ahead
 from validation.sweep.samples import samples_of_study
 from validation.sweep.sensitivity import sensitivity
 from validation.sweep.study import Study
@@ -111,6 +113,9 @@ def _finished(
 def _run(
     study: Study, where: Where, account: SweepAccount, chunks: Sequence[range], schema: pa.Schema, tell: Tell
 ) -> Counts:
+    there = all(part_path(where.folder, number).exists() for number in range(len(chunks)))
+    if where.scheduler == "processes" and not there:
+        import_ahead()
     samples = samples_of_study(study)
     with interrupts_deferred():
         from validation.sweep.missing import Keeper, judges_of, run_missing

@@ -1,0 +1,46 @@
+"""The process of which the workers of a sweep are forks: what they import is imported once, and at once.
+
+A worker that takes the place of another is there at once too, and all share the memory of what is imported.
+"""
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from multiprocessing import forkserver, get_all_start_methods, resource_tracker
+
+LIBRARIES_WITH_THREADS = ("OMP", "OPENBLAS", "MKL", "NUMBA")
+ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES_WITH_THREADS}
+FORKED = "forkserver"
+METHOD = FORKED if FORKED in get_all_start_methods() else "spawn"
+IMPORTED = ["distributed", "validation.sweep.chunk"]
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """State to what starts in a block that it runs in one thread: libraries read it when imported."""
+    own = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ.update(ONE_THREAD)
+    try:
+        yield
+    finally:
+        for name, value in own.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+def import_ahead() -> None:
+    """Start that process, where the system has forks; it imports while the caller goes on."""
+    if METHOD != FORKED:
+        return
+    forkserver.set_forkserver_preload(IMPORTED)
+    # a terminal sends Ctrl-C to that process too: it inherits that it is blocked
+    resource_tracker.ensure_running()  # which would end that
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # inherited
+    try:
+        with one_thread():
+            forkserver.ensure_running()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
