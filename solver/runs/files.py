@@ -45,8 +45,17 @@ def write_netcdf(dataset: xr.Dataset, path: Path, unlimited: tuple[str, ...] = (
     SolverError
         If the file cannot be written.
     """
+    import netCDF4
+    from xarray.backends import NetCDF4DataStore
+
     try:
-        with writing(path, SolverError), write_whole(path) as partial:
-            dataset.to_netcdf(partial, engine="netcdf4", unlimited_dims=unlimited)
+        with (
+            writing(path, SolverError),
+            write_whole(path) as partial,
+            netCDF4.Dataset(partial, "w") as stored,
+        ):
+            # what to_netcdf writes, without its question for Dask's schedulers: their import takes a second
+            store = NetCDF4DataStore(stored)  # type: ignore[no-untyped-call]
+            dataset.dump_to_store(store, unlimited_dims=unlimited)
     except RuntimeError as error:  # so netCDF reports a full disk
         raise SolverError(f"{path}: cannot be written: {error}") from error
