@@ -106,16 +106,17 @@ def ramped_outflow(folder, model, rcr):
     return flow
 
 
-@pytest.fixture(params=[0.2, 1.2, 5.0], ids=lambda tau: f"tau {tau} s")
+@pytest.fixture(scope="module", params=[0.2, 1.2, 5.0], ids=lambda tau: f"tau {tau} s")
 def tau(request):
     return request.param
 
 
-@pytest.fixture(params=[THESIS, BACKWARD], ids=["forward", "backward at the start"])
-def written(request, tau, tmp_path):
+@pytest.fixture(scope="module", params=[THESIS, BACKWARD], ids=["forward", "backward at the start"])
+def written(request, tau, tmp_path_factory):
     """A case, its model, and the model's outlet."""
-    case = dumped(tmp_path, "case", stated(request.param, tau))
-    path = tmp_path / "model.feb"
+    folder = tmp_path_factory.mktemp("written")
+    case = dumped(folder, "case", stated(request.param, tau))
+    path = folder / "model.feb"
     assert main([str(case), "--output", str(path), "--mesh", "48,2,1,3", "--cycles", "2"]) == 0
     read_structure(path)
     model = Parsed(path)
@@ -124,7 +125,7 @@ def written(request, tau, tmp_path):
         model=model,
         rcr=outlet_of(model),
         tau=tau,
-        folder=tmp_path,
+        folder=folder,
         case_flows_forward=request.param is THESIS,
     )
 
