@@ -14,6 +14,20 @@ from validation.compare import command as compare
 os.environ["ARTERIAL_ROM_CACHE"] = ""  # tests that replace parts of the code must not find results of others
 
 
+@pytest.fixture(scope="session")
+def runs_read(tmp_path_factory):
+    """Name and value of the variable by which tests that replace no part of the code read each run once."""
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+    return "ARTERIAL_ROM_CACHE", str(shared / "runs_read")
+
+
+@pytest.fixture
+def known_runs(monkeypatch, runs_read):
+    """FEBio's runs as another test has read them."""
+    monkeypatch.setenv(*runs_read)
+
+
 @pytest.fixture
 def quick(monkeypatch):
     """Without drawing reports."""

@@ -129,7 +129,7 @@ def test_more_targets_than_parameters_leave_differences(calibration_of):
     assert found.standard_errors[0] == pytest.approx(misfit / gain, rel=0.02)
 
 
-def test_a_3d_run_is_fitted(calibration_of, tmp_path, capsys):
+def test_a_3d_run_is_fitted(calibration_of, tmp_path, capsys, known_runs):
     """FEBio's own outlet is found again from its pressure over the cycle."""
     bounds = {
         "outlet.resistance": OUTLET["outlet.resistance"] | {"start": "3e9 Pa s/m^3"},

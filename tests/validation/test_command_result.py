@@ -24,11 +24,13 @@ FILES = {
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory):
+def finished(tmp_path_factory, runs_read):
     """Everything that one run leaves, reports included."""
     folder = tmp_path_factory.mktemp("finished")
     path = written(bands(small_case(), GENEROUS, IMPOSSIBLE), folder)
-    assert compare.main([str(path), "--output", str(folder / "result")]) == 0
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(*runs_read)
+        assert compare.main([str(path), "--output", str(folder / "result")]) == 0
     return path, folder / "result"
 
 

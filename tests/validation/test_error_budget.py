@@ -65,7 +65,7 @@ def test_a_reference_that_tells_too_little_inflow_is_named(case):
         with_inflow_of(case, reference)
 
 
-def test_a_coarser_mesh_of_another_artery_is_said(tmp_path, quick, capsys):
+def test_a_coarser_mesh_of_another_artery_is_said(tmp_path, quick, capsys, known_runs):
     content = small_case("none")
     other = str(ROOT / "reference_data/febio_levels/local_16.xplt")
     content["variants"]["none"]["reference"]["levels"] = [other]
@@ -105,14 +105,16 @@ def budget_of(result):
 
 
 @pytest.fixture(scope="module")
-def against_the_real_run(tmp_path_factory):
+def against_the_real_run(tmp_path_factory, runs_read):
     folder = tmp_path_factory.mktemp("budget")
     content = bands(small_case("none"), ("section_flow_rate", "rms_error", "2 %"))
     content["compare"]["matched_inflow"] = True
     content["variants"]["none"]["reference"] |= {
         "levels": [str(ROOT / "reference_data/febio_levels/none_16.xplt")]
     }
-    assert compare.main([str(written(content, folder)), "--output", str(folder / "result")]) == 0
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(*runs_read)
+        assert compare.main([str(written(content, folder)), "--output", str(folder / "result")]) == 0
     return folder / "result"
 
 

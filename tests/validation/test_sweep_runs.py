@@ -99,7 +99,7 @@ def test_outputs_are_those_of_the_ordinary_run(whole):
     assert row["radius_change"] == pytest.approx(mean.max() / mean.min() - 1.0, rel=1e-9)
 
 
-def test_errors_against_3d_are_those_of_a_comparison(tmp_path, quick):
+def test_errors_against_3d_are_those_of_a_comparison(tmp_path, quick, known_runs):
     path = written(small_case("local"), tmp_path)
     assert compare.main([str(path), "--output", str(tmp_path / "compared")]) == 0
     metrics = pd.read_csv(tmp_path / "compared/metrics.csv").query("band.notna()")
