@@ -9,34 +9,32 @@ settings.register_profile("ci", derandomize=True, deadline=None, max_examples=50
 settings.register_profile("explore", deadline=None, max_examples=50)
 settings.load_profile("ci" if os.environ.get("CI") else "explore")
 
-# Each process takes the next file when it has done one. The first two compile most kernels, and not the same.
+# Each process takes the next file when it has done one. The first compile most kernels, and not the same.
 LONGEST_FIRST = (
+    "reports/test_reports_page.py",
     "solver/test_two_modes.py",
     "solver/test_batch.py",
-    "reports/test_reports_page.py",
-    "validation/test_sweep_kills.py",
     "solver/test_godunov_case.py",
-    "solver/test_resume.py",
-    "validation/test_calibrate.py",
+    "validation/test_sweep_kills.py",
     "validation/test_made_up_kind.py",
-    "validation/test_mapping.py",
-    "validation/test_ablation.py",
-    "solver/test_manufactured_orders.py",
-    "validation/test_command_result.py",
-    "reports/test_reports_claims.py",
+    "validation/test_calibrate.py",
     "reports/test_reports_other_pages.py",
-    "reports/test_reports_rendering.py",
-    "febio_io/test_windkessel_start.py",
-    "validation/test_sweep_runs.py",
-    "validation/test_cache.py",
+    "solver/test_resume.py",
+    "reports/test_reports_claims.py",
+    "validation/test_meshed_profiles.py",
     "validation/test_grid_references.py",
+    "validation/test_command_result.py",
     "validation/test_error_budget.py",
     "validation/test_two_solvers.py",
-    "validation/test_benchmark_command.py",
-    "validation/test_bands.py",
-    "validation/test_false_reference.py",
-    "validation/test_febio_reference.py",
+    "validation/test_sweep_runs.py",
+    "validation/test_cache.py",
+    "validation/test_closest_profile.py",
+    "tests/test_commands.py",
+    "solver/test_manufactured_orders.py",
+    "validation/test_tables_golden.py",
+    "validation/test_input_uncertainty.py",
     "validation/test_command_input.py",
+    "febio_io/test_febio_run.py",
 )
 RANKS = {name: rank for rank, name in enumerate(LONGEST_FIRST)}
 

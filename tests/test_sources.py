@@ -185,6 +185,7 @@ flux(np.eye(4, 3), np.array([[0, 1, 2, 3]]), np.eye(4, 3))
 """
 
 
+@pytest.mark.slow
 def test_an_edit_of_a_comment_compiles_nothing_anew_and_one_of_a_kernel_does(copy, own_cache):
     def compiled():
         subprocess.run([sys.executable, "-c", COMPILED], cwd=copy, check=True)  # noqa: S603

@@ -130,6 +130,7 @@ def written(request, tau, tmp_path_factory):
     )
 
 
+@pytest.mark.slow
 def test_the_first_cycle_is_periodic(written):
     rcr, period = written.rcr, load_case_file(written.case, results_exist=False).variants["base"].inlet.period
     flow = ramped_outflow(written.folder, written.model, rcr)

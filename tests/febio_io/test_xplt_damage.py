@@ -34,6 +34,7 @@ def read_everything(path):
         return plot.n_states
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("zlib", [False, True])
 def test_a_file_cut_anywhere_gives_its_complete_states(write, zlib):
     sections = sample_sections(zlib=zlib)

@@ -12,6 +12,8 @@ from playwright.sync_api import Browser
 
 from reports.build import write_gallery
 
+pytestmark = pytest.mark.slow
+
 SIZES = pytest.mark.parametrize(
     ("size", "scheme"), [(WIDE, "light"), (NARROW, "dark")], ids=["1400 px, light", "400 px, dark"]
 )

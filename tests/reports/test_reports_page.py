@@ -10,6 +10,8 @@ import xarray as xr
 from opened_page import NARROW, PRESS_EACH, WIDE, Opened, open_page, overflowing, serious_defects
 from playwright.sync_api import Browser, Page
 
+pytestmark = pytest.mark.slow
+
 Finished = tuple[Path, list[dict[str, Any]]]
 PICTURES = ("curves", "profiles", "errors", "maps", "artery", "metrics")
 

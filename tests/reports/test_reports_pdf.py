@@ -137,6 +137,7 @@ def again(two_models: Finished, tmp_path_factory: pytest.TempPathFactory) -> tup
     return [path.read_bytes() for path in written] == before, pages
 
 
+@pytest.mark.slow
 def test_same_input_same_bytes(again: tuple[bool, list[bytes]]) -> None:
     assert again[0]
 

@@ -12,6 +12,8 @@ from reports.blocks import Figure, Paragraph, Report, Section, Subsection, Table
 from reports.result.load import load
 from reports.sections.content import report
 
+pytestmark = pytest.mark.slow
+
 BASE = synthetic.Setup(
     n_x=6, n_phi=4, n_time=7, n_y=5, i=(1, 3), j=(1, 3), variants=("none", "local"), time_names=("systole",)
 )

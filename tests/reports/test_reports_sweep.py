@@ -143,6 +143,7 @@ def with_indices(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_indices_are_those_of_the_study(with_indices: Path, pdf_text: Callable[[Path], str]) -> None:
     sweep = load_sweep(with_indices)
     rows = _table(sweep, "indices-1-table").rows
@@ -170,6 +171,7 @@ def test_a_running_sweep_without_bands_or_indices_has_a_page(tmp_path: Path) -> 
     assert "The design gives no Sobol indices" in html
 
 
+@pytest.mark.slow
 def test_the_page_is_the_same_for_the_same_folder(with_indices: Path) -> None:
     first = [(with_indices / name).read_bytes() for name in ("index.html", "index.pdf")]
     assert first == [path.read_bytes() for path in write_sweep_page(with_indices)]

@@ -201,6 +201,7 @@ def test_a_new_run_does_not_take_up_old_pieces(run, case_file):
     assert_same_bytes(whole, output)
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on(case_file, monkeypatch):
     """SIGKILL leaves no time to tidy up; a half-written piece is not taken up."""
     changed(case_file, "cycles: 2", "cycles: 20")

@@ -26,6 +26,7 @@ def tables(tmp_path_factory):
     return section_wall(wall(), tmp_path_factory.mktemp("walls"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load", [2e3, 9e3, 16e3, 29e3])
 def test_between_pressures_a_table_is_the_solid(tables, load):
     exact = radii(wall(), np.full(12, load))

@@ -69,6 +69,7 @@ def test_a_solid_stands_beside_the_membrane_of_its_material(case_of):
     assert models["membrane wall, section pressure"].wall.base == "saint_venant_kirchhoff"
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_row_a_model(tmp_path, capsys, known_runs):
     output = tmp_path / "found"
     assert ablation.main([str(written(small_case("local"), tmp_path)), "--output", str(output)]) == 0

@@ -6,6 +6,8 @@ import pytest
 
 from validation.benchmark import command as benchmark
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def tiny(tmp_path, monkeypatch):

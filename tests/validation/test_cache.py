@@ -118,6 +118,7 @@ class TestStorage:
         with pytest.raises(ValidationError, match="cannot be written"):
             Cache(tmp_path / "absent").put("a", entry())
 
+    @pytest.mark.slow
     def test_two_processes_share_a_folder(self, tmp_path):
         code = (
             "import sys; sys.path[:0] = ['tests/validation', '.']\n"

@@ -191,6 +191,7 @@ class TestResult:
         assert any("none_axis_nodes.txt: 7626 values" in note for note in about["notes"])
         assert about["warnings"] == []
 
+    @pytest.mark.slow
     def test_a_second_run_gives_the_same_figures(self, finished, tmp_path, quick):
         assert compare.main([str(finished[0]), "--output", str(tmp_path / "again")]) == 0
         again, first = ((d / "metrics.csv").read_text() for d in (tmp_path / "again", finished[1]))

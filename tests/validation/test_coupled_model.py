@@ -18,6 +18,8 @@ from validation.reference.febio.series import KIND
 
 from small_case import ROOT  # isort: skip
 
+pytestmark = pytest.mark.slow
+
 TABLE = ROOT / "reference_data/thesis/table_3_8.csv"
 SECTIONS = np.array([1, 11, 21, 31, 39, 51, 61, 71, 82, 91, 101, 111, 120]) - 1
 CASES = load_case_file(ROOT / "cases/coupled.yaml").variants

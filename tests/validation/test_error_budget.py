@@ -24,6 +24,8 @@ from validation.reference.mesh import read as mesh_reference
 from validation.runs.matched_inflow import inlet_through, with_inflow_of
 from validation.runs.reduced_model import ReducedModelRun
 
+pytestmark = pytest.mark.slow
+
 JUDGED = ("section_flow_rate", "pressure", "radius")
 
 

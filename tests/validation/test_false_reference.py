@@ -10,6 +10,8 @@ from small_case import bands, small_case, written
 from validation.compare import command as compare
 from validation.reference.mesh import read as mesh_reference
 
+pytestmark = pytest.mark.slow
+
 ALL_BANDS = [
     *(("pressure", "bias", "3 %"), ("section_pressure", "bias", "3 %"), ("systolic_pressure", "bias", "3 %")),
     *(("pulse_pressure", "bias", "5 %"), ("radius", "bias", "2 %"), ("largest_radius", "bias", "2 %")),

@@ -49,6 +49,7 @@ def errors(found, tube):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("files", WRITERS)
 @pytest.mark.parametrize("cells", ["hexahedra", "wedges", "tetrahedra", "quadratic"])
 def test_a_tube_in_files(tmp_path, files, cells):

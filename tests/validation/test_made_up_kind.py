@@ -19,6 +19,8 @@ from tubes import Tube
 from cases.errors import CaseFileError
 from cases.reading.case_file import load_case_file
 
+pytestmark = pytest.mark.slow
+
 HERE = Path(__file__).parent
 PERIOD = 2.392 / 3
 TUBE = Tube(sectors=12, rings=4, stacks=10, layers=2)

@@ -10,6 +10,8 @@ from validation.mapping.rays import rays
 from validation.metrics.curved_section import curved_flow_rate
 from validation.reference.febio.series import KIND
 
+pytestmark = pytest.mark.slow
+
 X = np.array([0.625e-3, 6.875e-3, 7.5e-3, 14.375e-3])
 PHI = np.arange(8) * np.pi / 4
 MIDDLE = 2

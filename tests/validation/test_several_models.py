@@ -22,6 +22,8 @@ from reports.result.load import load
 from validation.compare import command as compare
 from validation.compare.side_by_side import FIGURES, side_by_side
 
+pytestmark = pytest.mark.slow
+
 MODELS = {
     "row": {},
     "coupled": {

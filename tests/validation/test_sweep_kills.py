@@ -22,7 +22,10 @@ from validation.sweep.folder import PAGE_FILES
 from validation.sweep.samples import Sample
 from validation.sweep.stream import computed
 
-pytestmark = pytest.mark.skipif(not Path("/proc").is_dir(), reason="finds processes in /proc")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not Path("/proc").is_dir(), reason="finds processes in /proc"),
+]
 
 SAMPLES = 36
 PARAMETERS = {"calcification.youngs_modulus": {"start": "1 MPa", "stop": "20 MPa", "count": SAMPLES}}

@@ -27,6 +27,7 @@ def plot(tmp_path_factory):
     return fields(small_case("local"), tmp_path_factory.mktemp("plot")).fields
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file_format", ["vtu", "vtkhdf"])
 def test_a_febio_run_through_vtk_gives_the_plot_files_fields(tmp_path, file_format, plot):
     content = small_case("local")
