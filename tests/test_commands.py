@@ -91,6 +91,7 @@ def test_help_names_what_was_called(name, capsys, monkeypatch):
         signal.signal(signal.SIGTERM, before)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("package", "module", "number", "said"),
     [

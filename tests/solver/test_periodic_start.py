@@ -51,6 +51,7 @@ def case(tmp_path):
     return load
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("changes", KINDS.values(), ids=list(KINDS))
 def test_one_cycle_is_that_of_a_long_run(case, changes):
     times, cycles = np.linspace(0.0, PERIOD, 9), 5 if "outlet" in changes else 40

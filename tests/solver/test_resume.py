@@ -83,7 +83,10 @@ def wholes(tmp_path_factory):
     return tmp_path_factory.mktemp("wholes")
 
 
-@pytest.mark.parametrize("control", ["", " error_tolerance: 1e-4,"])
+ADAPTIVE = pytest.param(" error_tolerance: 1e-4,", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("control", ["", ADAPTIVE])
 @pytest.mark.parametrize("outlet", list(BOUNDARIES))
 @pytest.mark.parametrize("after", [3, 11, 20])
 def test_interrupted_and_resumed(run, case_file, wholes, outlet, control, after):

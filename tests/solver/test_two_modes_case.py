@@ -28,7 +28,7 @@ def reversing(case_file):
     return of
 
 
-@pytest.mark.parametrize("pressure", ["row", "section"])
+@pytest.mark.parametrize("pressure", [pytest.param("row", marks=pytest.mark.slow), "section"])
 @pytest.mark.parametrize("closure", ["mean", "axis_momentum"])
 def test_a_batch_gives_the_same_fields(reversing, closure, pressure):
     case = load_case_file(reversing(closure, pressure)).variants["patch"]
