@@ -8,6 +8,8 @@ from solver.case.model import model_of
 from solver.case.run import run_case, walk
 from solver.errors import ModelError
 
+pytestmark = pytest.mark.slow  # compiles a scheme that no other quick test needs
+
 PARTS = {
     "wall": "{law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.5}",
     "calcification": "{pattern: none}",

@@ -5,6 +5,8 @@ import pytest
 
 from validation.tables.simple_wave import area_error, exact_area, initial_area
 
+pytestmark = pytest.mark.slow  # compiles a scheme that no other quick test needs
+
 
 @pytest.mark.parametrize(
     ("limiter", "least", "largest"),

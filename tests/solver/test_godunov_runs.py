@@ -13,6 +13,8 @@ from solver.marching.godunov_setup import LIMITERS, State, held, load, reference
 from solver.wall.smooth_patch import smooth_wall
 from validation.tables.artery import CALCIFIED, HEALTHY, QUARTER_CM, artery, ring
 
+pytestmark = pytest.mark.slow  # compiles a scheme that no other quick test needs
+
 UNKNOWNS = ("area", "flow", "exponent")
 
 

@@ -158,12 +158,14 @@ def explicit_errors(solution, n_x, n_phi, limiter):
     [(StandingWave(0.0, 0.0, 0.003), 1, 160), (StandingWave(0.5, 0.0, 0.003), 6, 80)],
     ids=["one row", "rows"],
 )
+@pytest.mark.slow
 def test_order_of_2_2_34_by_the_explicit_scheme(solution, n_phi, coarsest, limiter):
     meshes = [(coarsest * k, n_phi if n_phi == 1 else n_phi * k) for k in (1, 2)]
     found = orders([explicit_errors(solution, *mesh, limiter) for mesh in meshes])
     assert np.all((found > 1.8) & (found < 2.2)), found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("limiter", ["lax_wendroff", "van_leer"])
 def test_the_explicit_scheme_is_of_first_order_where_the_wall_varies(limiter):
     """The source −A(√A − √A₀)/(ρA₀) ∂_xβ is not balanced with the flux: the weakness behind table 3.1."""

@@ -109,6 +109,7 @@ def test_interrupted_and_resumed(run, case_file, wholes, outlet, control, after)
     assert not pieces_folder(parts).exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("after", "outlet"), [(3, "resistance"), (11, "windkessel")])
 def test_the_explicit_scheme_is_resumed_too(run, case_file, after, outlet):
     changed(case_file, BOUNDARIES["resistance"], BOUNDARIES[outlet])

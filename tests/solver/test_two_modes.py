@@ -31,8 +31,10 @@ from solver.model.parameters import uniform_state
 from solver.model.profiles import TwoModes
 from solver.model.waveform import FourierSeries, constant
 
+pytestmark = pytest.mark.slow  # compiles a scheme that no other quick test needs
+
 CLOSURES = ("mean", "axis_momentum")
-WAY = [pytest.param(False, id="rows", marks=pytest.mark.slow), pytest.param(True, id="sections")]
+WAY = [pytest.param(False, id="rows"), pytest.param(True, id="sections")]
 Y, WEIGHTS = np.polynomial.legendre.leggauss(40)
 Y, WEIGHTS = 0.5 * (Y + 1), 0.5 * WEIGHTS
 
@@ -81,7 +83,6 @@ def test_the_mean_around_an_axisymmetric_wall_is_poiseuilles_exponent(pattern, s
     assert np.max(np.abs(np.sqrt(modes.state().area / power.state().area) - 1)) < 1e-7
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("closure", CLOSURES)
 @pytest.mark.parametrize("outlet", list(OUTLETS))
 @pytest.mark.parametrize("inlet", list(INLETS))
@@ -110,7 +111,6 @@ def womersley(alpha):
     return np.array([mean, axis]) / 1j, modes / 1j
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("alpha", "error"), [(1, 0.021), (3, 0.092), (6, 0.113)])
 def test_womersley(alpha, error):
     """A stiff tube follows the two modes' own answer, which is this close to the exact one."""

@@ -10,6 +10,8 @@ from solver.command import main
 from solver.runs.batch import run_batch
 from solver.runs.result import cell_dataset
 
+pytestmark = pytest.mark.slow  # compiles a scheme that no other quick test needs
+
 REVERSED = "t_s,mean_velocity_cm_s\n0,8\n0.05,20\n0.12,-6\n0.2,8\n"
 TIMES = np.linspace(0.0, 0.2, 11)
 
@@ -28,7 +30,7 @@ def reversing(case_file):
     return of
 
 
-@pytest.mark.parametrize("pressure", [pytest.param("row", marks=pytest.mark.slow), "section"])
+@pytest.mark.parametrize("pressure", ["row", "section"])
 @pytest.mark.parametrize("closure", ["mean", "axis_momentum"])
 def test_a_batch_gives_the_same_fields(reversing, closure, pressure):
     case = load_case_file(reversing(closure, pressure)).variants["patch"]
