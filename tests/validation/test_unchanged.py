@@ -56,10 +56,20 @@ def appended(name):
     return change
 
 
+def replaced(path):
+    path.unlink(missing_ok=True)
+    path.mkdir()
+
+
 CHANGES = {
     "the case": appended("small.yaml"),
     "a file that it reads": appended("inlet.csv"),
     "a file of the result": appended("result/metrics.csv"),
+    "a folder in the place of a file": lambda folder, _: replaced(folder / "result/report.pdf"),
+    "a link to nowhere": lambda folder, _: (folder / "result/report.pdf").symlink_to("nowhere"),
+    "files that name others": lambda _, patch: patch.setattr(
+        "validation.compare.unchanged.NAMING_OTHERS", (".csv",)
+    ),
     "a file less": lambda folder, _: (folder / "result/comparison.nc").unlink(),
     "a damaged list of checksums": lambda folder, _: (folder / "result/checksums.json").write_text("{}"),
     "none": lambda folder, _: (folder / "result/checksums.json").unlink(),
@@ -78,3 +88,16 @@ def test_any_change_is_computed(again, change, tmp_path, monkeypatch):
 def test_fresh_computes(again):
     with pytest.raises(ComputedError):
         again[0]("--fresh")
+
+
+def test_what_changes_while_it_is_computed_is_not_sealed(again, tmp_path, monkeypatch):
+    (tmp_path / "result/checksums.json").unlink()
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path)
+
+    def meanwhile(_):
+        appended("inlet.csv")(tmp_path, None)
+
+    monkeypatch.setattr("validation.compare.case.write_reports", meanwhile)
+    assert again[0]() == 0
+    assert not (tmp_path / "result/checksums.json").exists()

@@ -119,8 +119,16 @@ def prescribed_inflow(run: VariantRun) -> Floats | None:
     return signal if run.case.inlet.kind == "flow" else None
 
 
-def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache | None = None) -> Outcome:
+def compare_case(
+    file: CaseFile,
+    target: Path,
+    command: list[str],
+    cache: Cache | None = None,
+    determined_by: str = "",
+) -> Outcome:
     """Run one case file and leave its result in ``target``; see ``harness`` for what that holds.
+
+    ``determined_by`` is the digest of what determines the result, taken when the file was read.
 
     Returns
     -------
@@ -133,7 +141,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
     """
     check_stated(file)
     check_computed(file.path, file.variants)
-    determined_by = determinants(file)
+    stated, determined_by = file, determined_by or determinants(file)
     with watching(cache) as watch, result_directory(target) as directory:
         file = replace(file, models=resolved(file.models, watch))
         check_variants(file.variants)
@@ -144,7 +152,7 @@ def compare_case(file: CaseFile, target: Path, command: list[str], cache: Cache 
         write_json(directory / "provenance.json", account.written())
         with watch.step("reports"):
             write_reports(directory)
-        seal(directory, determined_by, account.created, account.warnings)
+        seal(directory, stated, determined_by, account.created, account.warnings)
     return Outcome(rows, [*watch.remarks, *account.warnings])
 
 

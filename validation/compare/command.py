@@ -47,15 +47,16 @@ def _run(chosen: argparse.Namespace, command: list[str]) -> int:
     with interrupts_deferred():
         from cases.reading.case_file import load_case_file
         from validation.compare.outcome import summary, targets
-        from validation.compare.unchanged import unchanged
+        from validation.compare.unchanged import determinants, unchanged
 
     files = [load_case_file(path) for path in chosen.cases]
+    digests = [determinants(file) for file in files]  # before anything that they name can change
     places = targets(files, chosen.output)
     rows: dict[str, Any] = {}
     broken = False
-    for file, target in zip(files, places, strict=True):
-        kept = None if chosen.fresh else unchanged(file, target)
-        outcome = kept or _compared(file, target, command, chosen.fresh)
+    for file, digest, target in zip(files, digests, places, strict=True):
+        kept = None if chosen.fresh else unchanged(file, digest, target)
+        outcome = kept or _compared(file, digest, target, command, chosen.fresh)
         rows[file.name] = outcome.rows
         for warning in outcome.warnings:
             print(f"warning: {warning}", file=sys.stderr)
@@ -66,12 +67,12 @@ def _run(chosen: argparse.Namespace, command: list[str]) -> int:
     return BAND_BROKEN if broken and chosen.check else COMPLETE
 
 
-def _compared(file: CaseFile, target: Path, command: list[str], fresh: bool) -> Outcome:
+def _compared(file: CaseFile, digest: str, target: Path, command: list[str], fresh: bool) -> Outcome:
     with interrupts_deferred():
         from validation.compare.case import compare_case
         from validation.runs.cache import open_cache
 
-    return compare_case(file, target, command, open_cache(fresh))
+    return compare_case(file, target, command, open_cache(fresh), digest)
 
 
 def _write_side_by_side(folder: Path, rows: dict[str, Any]) -> None:
