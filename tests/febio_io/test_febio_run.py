@@ -17,6 +17,8 @@ from febio_io.run.endings import explain_ending
 from febio_io.run.process import FebioRunError, LogTail, find_febio
 from febio_io.xplt import open_plot
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 STAND_IN = Path(__file__).parent / "febio_stand_in.py"
 MODEL = """<?xml version="1.0"?>

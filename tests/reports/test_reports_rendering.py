@@ -15,6 +15,8 @@ from reports import pages
 from reports.build import write_reports
 from reports.command import main
 
+pytestmark = pytest.mark.slow
+
 Rows = list[dict[str, Any]]
 HOSTILE = '<script>alert("1")</script> # *bold* _low_ $x^2$ @key <label> \\ {{ 7*7 }} #panic() `raw` [a](b)'
 

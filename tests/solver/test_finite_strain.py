@@ -11,6 +11,8 @@ from cases.sections.wall_laws.hyperelastic import HyperelasticWall
 from cases.sections.wall_laws.thick import lame_stiffness
 from solver.wall.finite_strain import inflation_curve
 
+pytestmark = pytest.mark.slow
+
 MODULUS, RATIO, RADIUS, THICKNESS = 0.6e6, 0.48, 2.5e-3, 0.5e-3
 MATERIALS = {name: law.stresses for name, law in LAWS.items() if issubclass(law, HyperelasticWall)}
 BOTH = pytest.mark.parametrize("material", list(MATERIALS))

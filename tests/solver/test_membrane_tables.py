@@ -12,6 +12,8 @@ from solver.wall import membrane_tables
 from solver.wall.membrane_tables import MembraneWall, radii, section_wall
 from solver.wall.sections import SectionWall, linear_section_wall, row_table
 
+pytestmark = pytest.mark.slow
+
 RADIUS, HEALTHY, CALCIFIED = 2.5e-3, 301.0, 5017.0
 
 

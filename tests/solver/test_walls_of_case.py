@@ -13,6 +13,8 @@ from solver.case.model import default_output_times, model_of
 from solver.case.run import run_case
 from solver.errors import ModelError
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 THIN = "wall: {law: thin, youngs_modulus: 0.6 MPa, poisson_ratio: 0.5}"
 LAYERS = (

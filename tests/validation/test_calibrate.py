@@ -23,6 +23,8 @@ from validation.calibrate.targets import observed
 from validation.errors import ValidationError
 from validation.runs.variants import watching
 
+pytestmark = pytest.mark.slow
+
 OUTLET = {
     "outlet.resistance": {"low": "1e8 Pa s/m^3", "high": "1e10 Pa s/m^3"},
     "outlet.offset": {"low": "1 kPa", "high": "20 kPa"},
@@ -85,7 +87,6 @@ def test_the_thesiss_outlet_is_found(tmp_path, capsys):
     assert printed.err == ""
 
 
-@pytest.mark.slow
 @settings(max_examples=3, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(resistance=st.floats(5e8, 4e9), offset=st.floats(4e3, 14e3), modulus=st.floats(4e5, 2e6))
 def test_known_numbers_are_found_again(calibration_of, resistance, offset, modulus):
@@ -130,7 +131,6 @@ def test_more_targets_than_parameters_leave_differences(calibration_of):
     assert found.standard_errors[0] == pytest.approx(misfit / gain, rel=0.02)
 
 
-@pytest.mark.slow
 def test_a_3d_run_is_fitted(calibration_of, tmp_path, capsys, known_runs):
     """FEBio's own outlet is found again from its pressure over the cycle."""
     bounds = {

@@ -14,6 +14,8 @@ from validation.compare.budget.inputs import input_uncertainty
 from validation.compare.budget.spread import RunningSpread, relative_spread
 from validation.runs.cache import Cache
 
+pytestmark = pytest.mark.slow
+
 RESISTANCE, OFFSET, FLOW = 1.358e9, 9330.0, 5e-6
 INSTANTS = np.array([0.05, 0.1])
 REASON = {"reason": "stated"}

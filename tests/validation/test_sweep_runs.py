@@ -28,6 +28,8 @@ from validation.sweep.command import main
 from validation.sweep.folder import PAGE_FILES, claimed
 from validation.sweep.page import up_to_date_page
 
+pytestmark = pytest.mark.slow
+
 MODULUS = "calcification.youngs_modulus"
 ONE = {MODULUS: ["10 MPa"]}
 
@@ -99,7 +101,6 @@ def test_outputs_are_those_of_the_ordinary_run(whole):
     assert row["radius_change"] == pytest.approx(mean.max() / mean.min() - 1.0, rel=1e-9)
 
 
-@pytest.mark.slow
 def test_errors_against_3d_are_those_of_a_comparison(tmp_path, quick, known_runs):
     path = written(small_case("local"), tmp_path)
     assert compare.main([str(path), "--output", str(tmp_path / "compared")]) == 0
@@ -215,7 +216,6 @@ print(*sorted(set(sys.modules) & {names}))
 """
 
 
-@pytest.mark.slow
 def test_a_sweep_with_nothing_to_do_leaves_all_as_it_is_and_loads_little(whole, tmp_path, capsys):
     shutil.copytree(whole[2], tmp_path / "out")
     command = [str(study_file(tmp_path)), "--output", str(tmp_path / "out")]

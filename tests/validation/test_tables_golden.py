@@ -9,7 +9,6 @@ from validation.tables.command import main
 from validation.tables.pulse import block_pulse
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("transition", "pressure", "eps_2", "eps_inf", "eps_Q"),
     [(QUARTER_CM, 1e3, 143.9e-6, 37.37e-5, 39.48e-2), (2.5e-3, 1e4, 13.29e-4, 3.325e-3, 4.199)],
