@@ -15,6 +15,8 @@ from solver.schemes.godunov.waves import decompose, limited
 from solver.wall.smooth_patch import column_places, smooth_wall
 from validation.tables.artery import CALCIFIED, HEALTHY
 
+pytestmark = pytest.mark.slow  # compiles the explicit scheme
+
 
 def perturbed(setup, seed=1):
     """A state without symmetry and its fields."""

@@ -4,6 +4,8 @@ import pytest
 
 from validation.tables.scheme_agreement import _rows, difference, explicit_flow
 
+pytestmark = pytest.mark.slow  # compiles the explicit scheme
+
 
 def test_already_on_a_coarse_grid_without_calcification():
     found = explicit_flow("none", n_x=60)

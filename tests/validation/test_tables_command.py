@@ -10,6 +10,8 @@ from validation.tables import command as tables
 from validation.tables import experiments, presentation, pulse, stability, store
 from validation.tables.experiment import Check, Entry, Experiment, number, numbers, within
 
+pytestmark = pytest.mark.slow  # compiles the explicit scheme
+
 
 @pytest.fixture
 def counted(monkeypatch):

@@ -8,6 +8,8 @@ from validation.tables.artery import QUARTER_CM
 from validation.tables.command import main
 from validation.tables.pulse import block_pulse
 
+pytestmark = pytest.mark.slow  # compiles the explicit scheme
+
 
 @pytest.mark.parametrize(
     ("transition", "pressure", "eps_2", "eps_inf", "eps_Q"),
