@@ -52,6 +52,12 @@ class CaseFile:
         """The cases of the first model."""
         return next(iter(self.models.values()))
 
+    @property
+    def input_files(self) -> tuple[Path, ...]:
+        """Files that the cases of all models and variants were read from, each once."""
+        cases = (case for variants in self.models.values() for case in variants.values())
+        return tuple(dict.fromkeys(path for case in cases for path in case.input_files))
+
     def model(self, name: str | None) -> dict[str, Case]:
         """Return the cases of a model, without a name those of the first.
 

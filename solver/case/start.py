@@ -65,9 +65,7 @@ def periodic_state(case: Case, model: Model, progress: Progress | None = None) -
     begun: list[State] = []
     ended: list[State] = []
     for cycle in count(1):
-        first, last = snapshots(
-            model, [0.0, period], case.solver.time_step, state, error_tolerance(case), first_step=None
-        )
+        first, last = snapshots(model, [0.0, period], case.solver.time_step, state, error_tolerance(case))
         charged = _charged(case, first.state, last.state)
         change = max(_changes(first, last), _still_to_charge(first, last, charged))
         if progress:

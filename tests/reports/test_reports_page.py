@@ -70,10 +70,7 @@ def test_it_opens_with_its_own_security_policy_and_asks_for_nothing(
 @pytest.mark.parametrize("place", ["opened", "narrow"], ids=["1400 px", "400 px"])
 def test_nothing_overflows_and_axe_finds_nothing_serious(place: str, request: pytest.FixtureRequest) -> None:
     one: Opened = request.getfixturevalue(place)
-    for scheme in (
-        "light",
-        "dark",
-    ):  # by the machine's settings; the page takes other colours, and draws again
+    for scheme in ("light", "dark"):  # by the machine's settings: the page takes its colours, and draws again
         one.page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
         one.page.wait_for_timeout(300)
         assert overflowing(one.page) == [], scheme

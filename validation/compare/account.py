@@ -91,8 +91,6 @@ def described(
     notes: list[str],
 ) -> Provenance:
     """Provenance of a finished comparison, with notes and warnings."""
-    cases = [case for variants in file.models.values() for case in variants.values()]
-    inputs = [path for case in cases for path in case.input_files]
     stated = {
         "seeds": {"bootstrap": SEED} | _seeds_of_inputs(file),
         "wall_times_s": wall_times,
@@ -107,7 +105,7 @@ def described(
         },
         "bands": declared_bands(file.variants),
     }
-    return Provenance.model_validate(provenance(file.path, inputs, command) | stated, strict=False)
+    return Provenance.model_validate(provenance(file.path, file.input_files, command) | stated, strict=False)
 
 
 def _seeds_of_inputs(file: CaseFile) -> dict[str, int]:

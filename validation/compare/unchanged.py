@@ -25,8 +25,7 @@ _ROWS = TypeAdapter(list[MetricRow])
 
 def determinants(file: CaseFile) -> str:
     """Digest of the case file, of all files that it reads, of the code and of the libraries' versions."""
-    cases = [case for variants in file.models.values() for case in variants.values()]
-    inputs = sorted({file.path, *(path for case in cases for path in case.input_files)})
+    inputs = sorted({file.path, *file.input_files})
     sums = [checksum(path) if path.is_file() else "yet to be made" for path in inputs]
     parts = [f"{shown_path(path)} {each}" for path, each in zip(inputs, sums, strict=True)]
     return hashlib.sha256("\n".join([*parts, _code()]).encode()).hexdigest()
@@ -44,9 +43,7 @@ def _cannot_be_followed(file: CaseFile) -> bool:
     cases = [case for variants in file.models.values() for case in variants.values()]
     parts = [part for case in cases for part in (case.wall, case.reference) if part is not None]
     from_outside = any(type(part).__module__.partition(".")[0] not in PACKAGES for part in parts)
-    return from_outside or any(
-        path.suffix.lower() in NAMING_OTHERS for case in cases for path in case.input_files
-    )
+    return from_outside or any(path.suffix.lower() in NAMING_OTHERS for path in file.input_files)
 
 
 def _files(directory: Path) -> dict[str, str]:
