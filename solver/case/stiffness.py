@@ -15,6 +15,7 @@ from solver.errors import ModelError
 from solver.geometry.calcification import Patch, calcified_stiffness, scaled_distance
 from solver.geometry.grid import Grid
 from solver.wall.finite_strain import inflation_curve
+from solver.wall.incompressible import incompressible_curve
 from solver.wall.table import MasterCurve, WallTable, wall_table
 
 # loads that a nonlinear wall is tabulated for, as shares of the healthy Young's modulus
@@ -117,6 +118,8 @@ def _load_curve(
     if isinstance(wall, HyperelasticWall):
         healthy = wall.youngs_modulus
         ends = LOWEST_LOAD * healthy, HIGHEST_LOAD * healthy
+        if wall.poisson_ratio == 0.5:
+            return incompressible_curve(wall.stresses, healthy, radius, thickness, *ends), *ends
         sizes = wall.poisson_ratio, radius, thickness
         return inflation_curve(wall.stresses, healthy, *sizes, *ends), *ends
     curve = MasterCurve(*wall.load_curve(radius))

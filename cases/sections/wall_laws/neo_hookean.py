@@ -1,4 +1,4 @@
-"""The compressible neo-Hookean tube."""
+"""The neo-Hookean tube: compressible as FEBio's, or with ν = ½ incompressible."""
 
 from typing import ClassVar, Literal
 
@@ -6,13 +6,16 @@ import numpy as np
 
 from cases.arrays import Floats
 from cases.sections.wall_laws.hyperelastic import HyperelasticWall, Stresses
+from cases.sections.wall_laws.law import PoissonRatio
 
 
 class NeoHookeanWall(HyperelasticWall):
     """A thick-walled tube of neo-Hookean material under finite strain."""
 
     law: Literal["neo_hookean"]
+    poisson_ratio: PoissonRatio
 
+    incompressible: ClassVar[bool] = True
     febio_material: ClassVar[str] = "neo-Hookean"
 
     @staticmethod
