@@ -66,8 +66,9 @@ def cached_reference(
     progress: Progress,
     alignment: Alignment,
     remark: Remark,
+    along_rays: bool = True,
 ) -> Reference:
-    """Read a reference, or take it from the cache."""
+    """Read a reference, or take it from the cache; with fields along rays where asked for."""
 
     def unpacked(entry: Entry) -> Reference:
         facts = entry.facts
@@ -83,7 +84,8 @@ def cached_reference(
         )
 
     def packed(found: Reference) -> Entry:
-        datasets = {"fields": with_packed(found.fields), "checks": found.checks}
+        fields = with_packed(found.fields) if along_rays else found.fields.drop_dims("y")
+        datasets = {"fields": fields, "checks": found.checks}
         facts = {
             "description": found.description,
             "notes": list(found.notes),
@@ -95,7 +97,7 @@ def cached_reference(
 
     return _cached(
         store,
-        lambda: reference_key(case, alignment, rays),
+        lambda: reference_key(case, alignment, rays) + ("" if along_rays else "-cells"),
         lambda: kind.read(case, rays, progress, alignment),
         packed,
         unpacked,
@@ -116,7 +118,7 @@ def cached_rom(
 
     def computed() -> ReducedModelRun:
         compile_kernels(case)
-        return run_reduced_model(case, alignment, rays, progress)
+        return run_reduced_model(case, alignment, rays, progress, along_rays)
 
     def unpacked(entry: Entry) -> ReducedModelRun:
         facts = entry.facts

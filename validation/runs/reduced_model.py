@@ -78,9 +78,15 @@ def compile_kernels(case: Case) -> None:
 
 
 def run_reduced_model(
-    case: Case, alignment: Alignment, rays: Rays, progress: Progress | None = None
+    case: Case,
+    alignment: Alignment,
+    rays: Rays,
+    progress: Progress | None = None,
+    along_rays: bool = True,
 ) -> ReducedModelRun:
     """Simulate all cycles of a case; keep the states at the reference's instants.
+
+    Velocities along rays, and what is derived of them, are left out where they are not asked for.
 
     Steps end on each of these instants, so that nothing is interpolated in time.
 
@@ -95,7 +101,8 @@ def run_reduced_model(
     kept = dataset.sel(time=alignment.rom_times)
     values = {name: kept[name].to_numpy() for name in COMPARED if name in kept}
     values |= _power(values, rays) if "profile_exponent" in values else _two_modes(case, kept, rays)
-    values |= _across(values, kept.get("azimuthal_flux"), rays)
+    if along_rays:
+        values |= _across(values, kept.get("azimuthal_flux"), rays)
     values["section_pressure_range"] = np.ptp(values["pressure"], axis=-1)
     change = change_of(case, dataset)
     return ReducedModelRun(

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
@@ -16,7 +17,7 @@ from cases.sections.inlet import ReferenceInlet
 from cases.shell.terminal import progress
 from solver.case.model import grid_of
 from solver.errors import SolverError
-from validation.compare.budget.sources import Sources, sources_of
+from validation.compare.budget.sources import CoarserMeshes, Sources, sources_of
 from validation.compare.comparison import VariantRun
 from validation.errors import ValidationError
 from validation.mapping.rays import Rays, rays
@@ -29,6 +30,7 @@ from validation.runs.matched_inflow import with_inflow_of
 from validation.runs.reduced_model import ReducedModelRun
 
 WORKERS = 2  # computations at once: mapping and stepping release the interpreter's lock
+AT_ONCE = 2  # variants that are computed
 
 
 class _StoppedError(Exception):
@@ -80,6 +82,28 @@ def align_variants(cases: Mapping[str, Case], watch: Watch) -> dict[str, Alignme
     return {name: _alignment(name, case, watch) for name, case in cases.items()}
 
 
+@dataclass
+class _Started:
+    """Computations of one variant; those of a model under its name."""
+
+    reference: Future[Reference]
+    roms: dict[str, Future[ReducedModelRun]]
+    sources: dict[str, Future[Sources | None]]
+
+    @property
+    def futures(self) -> list[Future[Any]]:
+        return [self.reference, *self.roms.values(), *self.sources.values()]
+
+    def runs(self, cases: Mapping[str, Case]) -> dict[str, VariantRun]:
+        """Return what each model gave."""
+        return {
+            model: VariantRun(
+                case, self.roms[model].result(), self.reference.result(), self.sources[model].result()
+            )
+            for model, case in cases.items()
+        }
+
+
 def run_variants(
     models: Mapping[str, Mapping[str, Case]],
     alignments: Mapping[str, Alignment],
@@ -88,10 +112,9 @@ def run_variants(
 ) -> Iterator[tuple[str, dict[str, VariantRun]]]:
     """Map all references and run the reduced models, two at a time, and give each variant as it is done.
 
-    A variant comes with its runs by model, which share its reference.
-
-    References take longest, so they go first and the short runs fill what processor is left over. The
-    order of variants may be any. The first error stops the others and is raised.
+    A variant comes with its runs by model, which share its reference. The order of variants may be any. The
+    first error stops the others and is raised. No more than two variants are in memory but for the one that
+    is looked at: the next one is begun when that is done with.
 
     Parameters
     ----------
@@ -109,57 +132,62 @@ def run_variants(
         As the kind of reference and the solver raise.
     """
     pool = ThreadPoolExecutor(max_workers=WORKERS)
-    of_first = next(iter(models.values()))
-    each = [(name, model) for name in of_first for model in models]
+    names = list(next(iter(models.values())))
+    by_variant = {name: {model: models[model][name] for model in models} for name in names}
+
+    def start(some: list[str]) -> dict[str, _Started]:
+        return _started(pool, {name: by_variant[name] for name in some}, alignments, watch)
+
     try:
-        references = {
-            name: pool.submit(_reference, name, case, alignments[name], watch)
-            for name, case in of_first.items()
-        }
-        roms = {
-            (name, model): pool.submit(
-                _reduced_model,
-                labelled(name, model, models),
-                models[model][name],
-                alignments[name],
-                watch,
-            )
-            for name, model in each
-        }
-        sources = {
-            (name, model): pool.submit(
-                _sources,
-                labelled(name, model, models),
-                models[model][name],
-                (roms[name, model], references[name]),
-                watch,
-            )
-            for name, model in each
-        }
+        running, waiting = start(names[:AT_ONCE]), names[AT_ONCE:]
         meanwhile()
-        waiting: dict[Future[Any], str] = {future: name for name, future in references.items()}
-        waiting |= {future: name for part in (roms, sources) for (name, _), future in part.items()}
-        for future in as_completed(waiting):
-            name = waiting.pop(future)
-            future.result()
-            del future  # and with it what it gave
-            if name not in waiting.values():
-                reference = references.pop(name).result()
-                yield (
-                    name,
-                    {
-                        model: VariantRun(
-                            models[model][name],
-                            roms.pop((name, model)).result(),
-                            reference,
-                            sources.pop((name, model)).result(),
-                        )
-                        for model in models
-                    },
-                )
+        while running:
+            name = _first_done(running)
+            yield name, running.pop(name).runs(by_variant[name])
+            running |= start(waiting[:1])
+            waiting = waiting[1:]
     finally:
         watch.stop.set()
         pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _started(
+    pool: ThreadPoolExecutor,
+    variants: Mapping[str, Mapping[str, Case]],
+    alignments: Mapping[str, Alignment],
+    watch: Watch,
+) -> dict[str, _Started]:
+    """Put the computations of variants into the queue.
+
+    References take longest, so they go first and the short runs fill what processor is left over.
+    """
+    started = {}
+    for name, cases in variants.items():
+        reference = pool.submit(_reference, name, next(iter(cases.values())), alignments[name], watch)
+        started[name] = _Started(reference, {}, {})
+    for name, cases in variants.items():
+        for model, case in cases.items():
+            label = labelled(name, model, cases)
+            started[name].roms[model] = pool.submit(_reduced_model, label, case, alignments[name], watch)
+    for name, cases in variants.items():
+        meshes = CoarserMeshes()
+        for model, case in cases.items():
+            both = (started[name].roms[model], started[name].reference)
+            label = labelled(name, model, cases)
+            started[name].sources[model] = pool.submit(_sources, label, case, both, meshes, watch)
+    return started
+
+
+def _first_done(running: Mapping[str, _Started]) -> str:
+    """Name of a variant all of whose computations have ended well; the first that fails is raised."""
+    of_variant = {future: name for name, started in running.items() for future in started.futures}
+    left = Counter(of_variant.values())
+    for future in as_completed(of_variant):
+        future.result()
+        left[of_variant[future]] -= 1
+        if not left[of_variant[future]]:
+            return of_variant[future]
+    raise ValueError("no variant is running")
 
 
 def _alignment(name: str, case: Case, watch: Watch) -> Alignment:
@@ -185,7 +213,11 @@ def _reduced_model(name: str, case: Case, alignment: Alignment, watch: Watch) ->
 
 
 def _sources(
-    name: str, case: Case, models: tuple[Future[ReducedModelRun], Future[Reference]], watch: Watch
+    name: str,
+    case: Case,
+    models: tuple[Future[ReducedModelRun], Future[Reference]],
+    meshes: CoarserMeshes,
+    watch: Watch,
 ) -> Sources | None:
     """Further runs of one variant, once both its models are there: they are ahead of it in the queue."""
     rom, reference = models[0].result(), models[1].result()
@@ -193,7 +225,8 @@ def _sources(
         return None
     with watch.step(f"{name}: sources of errors") as progress:
         try:
-            return sources_of(name, case, (rom, reference), watch.cache, progress, watch.remarks.append)
+            remark = watch.remarks.append
+            return sources_of(name, case, (rom, reference), meshes, watch.cache, progress, remark)
         except SolverError as error:
             raise ValidationError(f"variant {name}: with the inflow of 3D: {error}") from error
 

@@ -20,6 +20,7 @@ from solver.model.parameters import Model
 from solver.runs.batch import run_batch
 from solver.runs.result import CellHistory, cell_dataset
 from validation.compare.budget.spread import RunningSpread, relative_spread
+from validation.converge.refinement import levels
 from validation.metrics.quantities import CYCLE_QUANTITIES, DERIVED_QUANTITIES
 from validation.runs.cache import Cache
 from validation.runs.cached import Numbers, Remark, cached_numbers
@@ -30,7 +31,8 @@ from validation.sweep.display import Display
 from validation.sweep.parameters import Parameter
 
 AT_ONCE = 8  # results in memory
-STEPS = 4.0  # steps of the case in one of a sample: a spread needs no more digits
+STEPS = 4.0  # steps of the case in one of a sample: a spread needs no more digits,
+FEWEST = 40  # nor more cells along x than half of the case's, if they are no fewer than this
 MOST_FAILED = 0.1  # share of the samples; above it there is no number
 STEP = 0.1  # of a standard deviation: half the interval of the central differences
 Values = dict[str, Floats]
@@ -138,10 +140,13 @@ class _Runs:
 
 
 def _coarser(case: Case) -> Case:
-    """Return a case with a larger time step, where its scheme has no limit to that."""
-    if case.solver.scheme != "semi_implicit":
+    """Return a case with a larger time step and on half its grid, where scheme and grid allow that."""
+    stated = case.solver
+    if stated.scheme != "semi_implicit":
         return case
-    solver = case.solver.model_copy(update={"time_step": STEPS * case.solver.time_step})
+    if stated.n_x % 2 == 0 and stated.n_x >= 2 * FEWEST and stated.n_phi % 2 == 0:
+        case = levels(case, "grid")[0]
+    solver = case.solver.model_copy(update={"time_step": STEPS * stated.time_step})
     return case.model_copy(update={"solver": solver})
 
 

@@ -1,7 +1,8 @@
 """The further runs of a variant that its budget is made of, from the cache where nothing has changed."""
 
+import threading
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import xarray as xr
@@ -71,12 +72,31 @@ class Sources:
 
 
 @dataclass(frozen=True)
+class CoarserMeshes:
+    """References of a variant on coarser meshes, which all its reduced models are compared with.
+
+    They are read once, when the first model asks for them; others wait for that.
+    """
+
+    _found: list[Reference] = field(default_factory=list)
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def read(self, each: Callable[[], list[Reference]]) -> list[Reference]:
+        """Return the references; ``each`` reads them if they are not there yet."""
+        with self._lock:
+            if not self._found:
+                self._found.extend(each())
+            return self._found
+
+
+@dataclass(frozen=True)
 class _Variant:
     """One variant with both its models, and where results are kept."""
 
     name: str
     case: Case
     alignment: Alignment
+    meshes: CoarserMeshes
     store: Cache | None
     progress: Progress
     remark: Remark
@@ -91,6 +111,7 @@ def sources_of(
     name: str,
     case: Case,
     models: tuple[ReducedModelRun, Reference],
+    meshes: CoarserMeshes,
     store: Cache | None,
     progress: Progress,
     remark: Remark,
@@ -104,6 +125,8 @@ def sources_of(
     case : Case
     models : (ReducedModelRun, Reference)
         What is compared.
+    meshes : CoarserMeshes
+        Of the variant.
     store : Cache or None
     progress, remark : callable
 
@@ -114,7 +137,7 @@ def sources_of(
         tell is then not known, which a note says.
     """
     rom, reference = models
-    variant = _Variant(name, case, reference.alignment, store, progress, remark)
+    variant = _Variant(name, case, reference.alignment, meshes, store, progress, remark)
     numerical, notes = _numerical(variant, rom)
     coarser = () if case.reference is None else case.reference.coarser
     if not (case.compare.matched_inflow or coarser):
@@ -161,7 +184,8 @@ def _mesh(
         return key_of("budget", {"levels of": rom_key(case, alignment, points), "meshes": keys})
 
     def compute() -> Numbers:
-        levels = [_level(variant, each) for each in cases]
+        read = variant.meshes.read(lambda: [_reference(variant, each) for each in cases])
+        levels = [_level(variant, *each) for each in zip(cases, read, strict=True)]
         levels.append(Level(_elements(reference), matched.fields, reference.fields))
         sizes = [level.elements for level in levels]
         if not refined_enough(levels):
@@ -179,14 +203,24 @@ def _mesh(
     return mesh, refinement_told(found["sizes"], mesh), tuple(found["warnings"])
 
 
-def _level(variant: _Variant, case: Case) -> Level:
-    """One coarser mesh and the reduced model with its inflow."""
+def _reference(variant: _Variant, case: Case) -> Reference:
+    """One coarser mesh, without fields along rays."""
     kind = kind_of(variant.name, case)
-    alignment = kind.align(case)
-    reference = cached_reference(
-        variant.store, kind, case, variant.points, variant.progress, alignment, variant.remark
+    return cached_reference(
+        variant.store,
+        kind,
+        case,
+        variant.points,
+        variant.progress,
+        kind.align(case),
+        variant.remark,
+        along_rays=False,
     )
-    rom = last_cycle(with_inflow_of(case, reference), alignment, variant.progress)
+
+
+def _level(variant: _Variant, case: Case, reference: Reference) -> Level:
+    """One coarser mesh and the reduced model with its inflow."""
+    rom = last_cycle(with_inflow_of(case, reference), reference.alignment, variant.progress)
     named = case.reference and case.reference.files[0].name
     said = tuple(f"reference.levels: {named}: {warning}" for warning in reference.warnings)
     return Level(_elements(reference), rom, reference.fields, said)
