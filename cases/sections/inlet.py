@@ -30,6 +30,7 @@ from cases.values.kinds import (
 from cases.values.waveform_file import Waveform
 
 DEFAULT_PERIOD = 1.0
+Interpolation = Literal["monotone", "spline"]
 
 
 def _default_period(inlet: dict[str, Any]) -> float:
@@ -48,6 +49,9 @@ class PrescribedInlet(Section):
         A constant, in SI units.
     fourier : FourierSeries or None
         The quantity as a Fourier series.
+    interpolation : str
+        Between the points of a waveform: monotone (no value beyond its neighbours', PCHIP) or spline (the
+        periodic cubic spline, for points of a smooth curve).
     scale : float
         Factor of the quantity at all times.
     ramp : float or None
@@ -61,6 +65,7 @@ class PrescribedInlet(Section):
     waveform: InstanceOf[Waveform] | None = None
     value: float | None = None
     fourier: FourierSeries | None = None
+    interpolation: Annotated[Interpolation, one_of(Interpolation)] = "monotone"
     scale: Scale = 1.0
     ramp: Ramp | None = None
     period: Period = Field(default_factory=_default_period)
@@ -77,6 +82,8 @@ class PrescribedInlet(Section):
     @model_validator(mode="after")
     def _one_source(self) -> Self:
         require_one_source(self, ("waveform", "value", "fourier"))
+        if self.waveform is None and self.interpolation != "monotone":
+            raise refused(self.interpolation, "only beside waveform", key=("interpolation",))
         return self
 
 

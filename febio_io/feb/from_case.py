@@ -132,7 +132,8 @@ def artery_model(case: Case, choices: Choices, outlet_flow: OutletFlow) -> Arter
     if not isinstance(case.inlet, VelocityInlet):
         raise _refused("inlet.kind", case.inlet.kind, "velocity")
     inlet, timing = case.inlet, _timing(period, ramp, choices)
-    inflow = partial(_scaled, _signal(inlet.waveform, inlet.value, inlet.fourier), inlet.scale)
+    prescribed = _signal(inlet.waveform, inlet.value, inlet.fourier, inlet.interpolation == "spline")
+    inflow = partial(_scaled, prescribed, inlet.scale)
     return ArteryModel(
         vessel=Vessel(geometry.length, geometry.radius, geometry.wall_thickness),
         size=choices.size,
@@ -240,12 +241,17 @@ def _windkessel(
     )
 
 
-def _signal(waveform: Waveform | None, value: float | None, fourier: FourierSeries | None) -> Signal:
-    """Give the one that is stated as a function of time; waveforms by the monotone cubic (PCHIP)."""
+def _signal(
+    waveform: Waveform | None, value: float | None, fourier: FourierSeries | None, spline: bool = False
+) -> Signal:
+    """Give the one that is stated as a function of time; waveforms as the 2D model takes them."""
     if waveform is not None:
-        from scipy.interpolate import PchipInterpolator
+        from scipy.interpolate import CubicSpline, PchipInterpolator
 
-        return PchipInterpolator(waveform.times, waveform.values)
+        times, values = waveform.times, waveform.values
+        if not spline:
+            return PchipInterpolator(times, values)
+        return CubicSpline(times, [*values[:-1], values[0]], bc_type="periodic")
     if fourier is not None:
         return partial(_fourier, fourier)
     return partial(np.full_like, fill_value=value)

@@ -43,9 +43,9 @@ def calcified_cells(case: Case) -> Flags:
     return inside
 
 
-def _signal(waveform: Samples | None, value: float | None, period: float) -> Signal:
+def _signal(waveform: Samples | None, value: float | None, period: float, spline: bool = False) -> Signal:
     if waveform is not None:
-        return Waveform(waveform.times, waveform.values)
+        return Waveform(waveform.times, waveform.values, spline)
     if value is None:  # the schema states one of the sources
         raise ValueError("a boundary states no source")
     return constant(value, period)
@@ -73,7 +73,7 @@ def _inlet_source(inlet: VelocityInlet | FlowInlet | PressureInlet) -> Signal:
     if inlet.fourier is not None:
         series = inlet.fourier
         return FourierSeries(series.period, series.mean, tuple(series.cosines), tuple(series.sines))
-    return _signal(inlet.waveform, inlet.value, inlet.period)
+    return _signal(inlet.waveform, inlet.value, inlet.period, inlet.interpolation == "spline")
 
 
 def inlet_of(case: Case) -> Inlet:

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from cases.arrays import Floats
 from solver.errors import ModelError
@@ -31,7 +31,7 @@ class Signal(Protocol):
 
 @dataclass(frozen=True)
 class Waveform:
-    """Monotone cubic (PCHIP, Fritsch & Butland 1984) through the points of one cycle, repeated.
+    """Cubic through the points of one cycle, repeated: monotone (PCHIP, Fritsch & Butland 1984), or a spline.
 
     Attributes
     ----------
@@ -39,11 +39,14 @@ class Waveform:
         From 0 to the period, increasing, s.
     values : ndarray (n,)
         Values in SI; the last equals the first.
+    spline : bool
+        Whether it is the periodic spline, with two continuous derivatives.
     """
 
     times: Floats
     values: Floats
-    _interpolant: PchipInterpolator = field(init=False, repr=False, compare=False)
+    spline: bool = False
+    _interpolant: PchipInterpolator | CubicSpline = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         times, values = np.asarray(self.times, dtype=float), np.asarray(self.values, dtype=float)
@@ -55,7 +58,9 @@ class Waveform:
             raise ModelError("a waveform needs finite values")
         if abs(values[-1] - values[0]) > CLOSURE * np.max(np.abs(values)):
             raise ModelError(f"a waveform must close: first value {values[0]:g}, last value {values[-1]:g}")
-        object.__setattr__(self, "_interpolant", PchipInterpolator(times, values))
+        closed = np.append(values[:-1], values[0])
+        smooth = CubicSpline(times, closed, bc_type="periodic") if self.spline else None
+        object.__setattr__(self, "_interpolant", smooth or PchipInterpolator(times, values))
 
     @property
     def period(self) -> float:

@@ -101,6 +101,15 @@ def test_ramps_are_times(folder):
     assert (case_of(folder).inlet.ramp, case_of(folder).outlet.ramp) == (None, None)
 
 
+def test_a_waveform_may_be_a_spline(folder):
+    assert case_of(folder).inlet.interpolation == "monotone"
+    assert case_of(folder, INLET.replace("}", ", interpolation: spline}")).inlet.interpolation == "spline"
+    (problem,) = folder.problems((INLET, INLET.replace("}", ", interpolation: cubic}")))
+    assert "inlet.interpolation: cubic; allowed: monotone, spline" in problem
+    (problem,) = folder.problems((INLET, "{kind: velocity, value: 8 cm/s, interpolation: spline}"))
+    assert "inlet.interpolation: spline; allowed: only beside waveform" in problem
+
+
 def test_another_kind_of_inlet_replaces_it(folder):
     override = ("title: A patch", "title: A patch\n    inlet: {kind: pressure, value: 1 kPa}")
     inlet = folder.load(override).variants["local"].inlet

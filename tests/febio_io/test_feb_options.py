@@ -246,6 +246,21 @@ def test_other_inlets(write, tmp_path, inlet, last):
     assert np.abs(curve[:, 1]).max() < 0.12
 
 
+def test_a_spline_is_as_smooth_in_febio(write, tmp_path):
+    (tmp_path / "few.csv").write_text("t_s,mean_velocity_cm_s\n0,8\n0.2,8.5\n0.4,8\n0.6,7.5\n0.8,8\n")
+    inlet = {"kind": "velocity", "replace": True, "waveform": str(tmp_path / "few.csv")}
+    curves = {}
+    for way in ("monotone", "spline"):
+        assert write("--mesh", "8,2,1,3", "--cycles", "1", inlet=inlet | {"interpolation": way}) == 0
+        curves[way] = Parsed(tmp_path / "model.feb").curves()["1"]
+        (tmp_path / "model.feb").unlink()
+    cycle = curves["spline"][:, 0] > 0.2
+    times, values = curves["spline"][cycle].T
+    wave = 0.08 + 0.005 * np.sin(2 * np.pi * (times - curves["spline"][-1, 0]) / 0.8)
+    assert np.abs(values - wave).max() < 2e-4
+    assert np.abs(curves["monotone"][cycle, 1] - values).max() > 1e-4
+
+
 def test_time_steps_end_where_the_cycles_do(write, tmp_path):
     assert write("--mesh", "8,2,1,3", "--time-step", "1 ms", "--cycles", "3", "--states-per-cycle", "20") == 0
     found = read_structure(tmp_path / "model.feb")

@@ -1,4 +1,4 @@
-"""Waveforms: PCHIP, periodic."""
+"""Waveforms: PCHIP or a spline, periodic."""
 
 import numpy as np
 import pytest
@@ -41,6 +41,26 @@ def test_monotone_between_points(waveform):
         inside = waveform(np.linspace(begin, end, 50, endpoint=False))
         rise = np.diff(inside)
         assert np.all(rise >= -1e-12) or np.all(rise <= 1e-12)
+
+
+def test_a_spline_follows_a_smooth_curve_at_fourth_order():
+    def off(count, spline):
+        times, fine = np.linspace(0, 0.8, count + 1), np.linspace(-0.8, 1.6, 999)
+        curve = Waveform(times, np.sin(2 * np.pi * times / 0.8), spline)
+        return np.abs(curve(fine) - np.sin(2 * np.pi * fine / 0.8)).max()
+
+    assert off(20, True) / off(40, True) == pytest.approx(16, rel=0.05)
+    assert off(40, False) > 100 * off(40, True)
+
+
+@given(waveforms())
+def test_a_spline_goes_through_its_points_with_one_slope_where_cycles_meet(waveform):
+    curve = Waveform(waveform.times, waveform.values, spline=True)
+    np.testing.assert_allclose(curve(waveform.times), waveform.values, atol=1e-12)
+    step = 1e-6 * np.diff(waveform.times).min()
+    before, at, after = curve(np.array([-step, 0.0, step]))
+    steepest = np.abs(np.diff(waveform.values) / np.diff(waveform.times)).max()
+    assert abs(after - 2 * at + before) <= 1e-3 * step * max(steepest, 1e-6) + 1e-15
 
 
 def test_shape_of_the_answer():
