@@ -64,6 +64,7 @@ def _run(options: argparse.Namespace) -> int:
         from cases.shell.terminal import progress_bar
         from solver.case.locality import locality_warning
         from solver.case.periodicity import periodicity_warning
+        from solver.errors import SolverError
         from solver.model.diagnostics import Limits
         from solver.runs.resumable import run_identity, run_to_file
 
@@ -77,7 +78,10 @@ def _run(options: argparse.Namespace) -> int:
     chosen = labelled(variant, model, file.models)
     identity = run_identity(file.text, chosen, [path for path in case.input_files if path not in results])
     with progress_bar(f"{file.name} {chosen}") as progress:
-        done = run_to_file(case, options.output, identity, stated, options.resume, progress)
+        try:
+            done = run_to_file(case, options.output, identity, stated, options.resume, progress)
+        except SolverError as error:
+            raise SolverError(f"{options.case}, variant {chosen}: {error}") from error
     warnings = (
         *doubts_of(case),
         locality_warning(done.get("wall_locality_error")),

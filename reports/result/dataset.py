@@ -15,6 +15,7 @@ from reports.errors import ReportError
 
 _MAY_BE_ABSENT = (PROFILE_ERROR, PROFILE_ERROR_CURVE)  # where nothing flows there is no profile
 _UNREADABLE = (OSError, RuntimeError, TypeError, ValueError)  # what xarray and netCDF4 raise for broken data
+ANEW = "of an earlier version, or damaged: compare its case once more"
 _AXES = ("time", "x", "phi", "y")
 _TEXTS = ("case", "title", "models", "baseline", "compare_time_names", "case_yaml", "variant_titles")
 _NUMBERS = ("period_s", "compare_i", "compare_j", "compare_times_s")
@@ -57,11 +58,11 @@ def _check_names(path: Path, dataset: xr.Dataset) -> None:
         ("attribute", [name for name in (*_TEXTS, *_NUMBERS) if name not in dataset.attrs]),
     ):
         if missing:
-            raise ReportError(f"{path}: without {what} {', '.join(missing)}")
+            raise ReportError(f"{path}: without {what} {', '.join(missing)}; {ANEW}")
     expected = variables(reduced_models(path, dataset))
     missing = [name for name in expected if name not in dataset.data_vars]
     if missing:
-        raise ReportError(f"{path}: without variable {', '.join(missing)}")
+        raise ReportError(f"{path}: without variable {', '.join(missing)}; {ANEW}")
     for name, dims in expected.items():
         if dataset[name].dims != dims:
             raise ReportError(f"{path}: {name} has dimensions {dataset[name].dims}; {dims} are expected")

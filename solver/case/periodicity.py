@@ -60,5 +60,5 @@ def periodicity_warning(change: float | None) -> str:
         return ""
     return (
         f"the reduced model is not periodic yet: it changes by {change:.1e} (relative) over its last cycle "
-        "(raise solver.cycles, or state solver.start: periodic where it is allowed)"
+        "(raise solver.cycles; with scheme semi_implicit solver.start: periodic finds the state that repeats)"
     )

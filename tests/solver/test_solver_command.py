@@ -127,7 +127,7 @@ def test_a_run_that_drifts_says_so(run, case_file):
     status, text, errors = run(case_file, "--variant", "healthy", "--output", case_file.with_name("run.nc"))
     assert status == 0
     assert errors.startswith("warning: the reduced model is not periodic yet: it changes by ")
-    assert "(raise solver.cycles, or state solver.start: periodic where it is allowed)" in errors
+    assert "(raise solver.cycles; with scheme semi_implicit solver.start: periodic finds" in errors
     with xr.open_dataset(case_file.with_name("run.nc")) as stored:
         assert stored.attrs["cycle_change"] > 1e-4
         assert f"{stored.attrs['cycle_change']:.3g} (relative)" in text
@@ -210,7 +210,14 @@ def test_a_run_that_fails(run, case_file):
     answer = run(case_file, "--variant", "patch", "--output", case_file.with_name("run.nc"))
     assert pieces_folder(case_file.with_name("run.nc")).is_dir()  # what was reached stays
     shutil.rmtree(pieces_folder(case_file.with_name("run.nc")))
-    refused(answer, case_file.parent, "no admissible velocity-profile exponent", "t = 0.0", "i = ", "j = ")
+    refused(
+        answer,
+        case_file.parent,
+        "variant patch: no admissible velocity-profile exponent",
+        "t = 0.0",
+        "i = ",
+        "j = ",
+    )
 
 
 def test_an_older_result_survives_a_failure_and_not_a_success(run, case_file):

@@ -187,9 +187,9 @@ def test_a_result_is_replaced_with_the_walls_of_its_models_alone(results, tmp_pa
     folder.mkdir()
     for name in ("provenance.json", "comparison.nc", "coupled_none.vtkhdf", "reference_none.vtkhdf"):
         (folder / name).write_bytes((results / "both" / name).read_bytes())
-    own = folder / "my_mesh.vtkhdf"
+    own = folder / "reference_mine.vtkhdf"
     own.write_text("precious")
     case = written(bands(small_case("none")), tmp_path)
     assert compare.main([str(case), "--output", str(folder)]) == 2
-    assert "holds other files than a result (my_mesh.vtkhdf)" in capsys.readouterr().err
+    assert "holds other files than a result (reference_mine.vtkhdf)" in capsys.readouterr().err
     assert own.read_text() == "precious"

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from cases.results.comparison_file import REFERENCE, ROM, variable
+from cases.results.comparison_file import REFERENCE, ROM
 from cases.results.metric_row import COLUMNS, MetricRow
 from cases.shell.whole import write_text, write_whole_folder, writing
 from validation.errors import ValidationError
@@ -54,27 +54,28 @@ def check_target(target: Path) -> None:
         raise ValidationError(f"{target}: is the current directory; choose another --output")
 
 
-def _models_of(mark: Path) -> set[str]:
-    """Models that an older result names, and those that every result may have."""
+def _walls_of(mark: Path) -> set[str]:
+    """Names of an older result's walls for ParaView; none where its provenance tells no variants."""
     try:
-        variants = json.loads(mark.read_text(encoding="utf-8"))["variants"].values()
-        named = {str(model) for record in variants for model in record["models"]}
-    except (AttributeError, KeyError, OSError, TypeError, ValueError):  # by another version, or damaged
-        named = set()
-    return {REFERENCE, ROM} | named
+        variants = json.loads(mark.read_text(encoding="utf-8"))["variants"]
+        return {
+            f"{model}_{variant}.vtkhdf"
+            for variant, record in variants.items()
+            for model in (REFERENCE, *record.get("models", (ROM,)))
+        }
+    except (AttributeError, KeyError, OSError, TypeError, ValueError):  # damaged
+        return set()
 
 
 def _check_content(target: Path, names: set[str]) -> None:
-    of_models = tuple(variable(model, "") for model in _models_of(target / MARK))
-    strange = {
-        name for name in names - RESULT_FILES if not (name.startswith(of_models) and name.endswith(".vtkhdf"))
-    }
-    if not names or (MARK in names and not strange):
+    if not names:
         return
-    if MARK in names:
+    if MARK not in names:
+        raise ValidationError(f"{target}: exists and is no result of a comparison; choose another --output")
+    strange = names - RESULT_FILES - _walls_of(target / MARK)
+    if strange:
         others = ", ".join(sorted(strange))
         raise ValidationError(f"{target}: holds other files than a result ({others}); move them away")
-    raise ValidationError(f"{target}: exists and is no result of a comparison; choose another --output")
 
 
 @contextmanager
