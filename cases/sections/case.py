@@ -1,12 +1,13 @@
 """The schema of a case: every section, its keys and what they may hold. Values are in SI units."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, ValidationInfo, field_validator
 
 from cases.sections.base import SAME, Section, told_apart_by, union_by_tag
-from cases.sections.calcification import Calcification, LocalCalcification, SeveralCalcifications
+from cases.sections.calcification import Calcification, LocalCalcification, Part, SeveralCalcifications
 from cases.sections.compare import Compare
 from cases.sections.inlet import Inlet
 from cases.sections.outlet import NonReflectingOutlet, Outlet, PressureOutlet, ResistanceOutlet
@@ -129,21 +130,15 @@ class Case(Section):
     @classmethod
     def _fits_the_case(cls, solver: Solver, info: ValidationInfo) -> Solver:
         inlet, calcification = info.data.get("inlet"), info.data.get("calcification")
-        wall, outlet = info.data.get("wall"), info.data.get("outlet")
-        linear = [name for name, law in LAWS.items() if law.linear]
-        if isinstance(solver, GodunovSolver) and wall is not None and wall.law not in linear:
-            allowed = f"semi_implicit with the wall law {wall.law}; godunov with {', '.join(linear)}"
-            raise refused(solver.scheme, allowed, key=("scheme",))
+        outlet, parts = info.data.get("outlet"), () if calcification is None else calcification.parts
+        if isinstance(solver, GodunovSolver):
+            _refuse_unfit_for_godunov(solver, info.data.get("wall"), parts)
         if inlet is not None and solver.time_step > inlet.period:
             allowed = f"at most the period of the inlet ({inlet.period:g} s)"
             raise refused(f"{solver.time_step:g} s", allowed, key=("time_step",))
-        parts = () if calcification is None else calcification.parts
         if any(isinstance(part, LocalCalcification) for part in parts) and solver.n_phi < FEWEST_ROWS:
             allowed = f"{FEWEST_ROWS} or more with a local calcification"
             raise refused(solver.n_phi, allowed, key=("n_phi",))
-        if isinstance(solver, GodunovSolver) and len(parts) > 1:
-            allowed = "semi_implicit with several patches; godunov with one"
-            raise refused(solver.scheme, allowed, key=("scheme",))
         if inlet is not None:
             _refuse_endless_runs(solver, inlet)
             _refuse_unresolved_energy(solver, inlet)
@@ -177,6 +172,19 @@ class Case(Section):
             outlet.waveform.path if isinstance(outlet, PressureOutlet) and outlet.waveform else None,
         )
         return tuple(path for path in paths if path is not None)
+
+
+def _refuse_unfit_for_godunov(solver: Solver, wall: Wall | None, parts: Sequence[Part]) -> None:
+    linear = [name for name, law in LAWS.items() if law.linear]
+    allowed = ""
+    if wall is not None and wall.law not in linear:
+        allowed = f"semi_implicit with the wall law {wall.law}; godunov with {', '.join(linear)}"
+    elif len(parts) > 1:
+        allowed = "semi_implicit with several patches; godunov with one"
+    elif any(part.transition == "sharp" for part in parts):
+        allowed = "semi_implicit with a sharp calcification; godunov with transition lengths"
+    if allowed:
+        raise refused(solver.scheme, allowed, key=("scheme",))
 
 
 def _refuse_endless_runs(solver: Solver, inlet: Inlet) -> None:

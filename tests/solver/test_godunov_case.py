@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from cases.errors import CaseFileError
 from cases.reading.case_file import load_case_file
 from solver.case.model import model_of
 from solver.case.run import run_case, walk
-from solver.errors import ModelError
 
 pytestmark = pytest.mark.slow  # compiles a scheme that no other quick test needs
 
@@ -106,5 +106,6 @@ def test_a_flow_inlet_gives_its_flow_at_one_velocity(case):
 
 
 def test_a_sharp_calcification_is_refused(case):
-    with pytest.raises(ModelError, match=r"needs a smooth calcification \(its source holds ∂β/∂x\)"):
-        run_case(case(calcification=SHARP), [0.0, 0.1])
+    allowed = "semi_implicit with a sharp calcification; godunov with transition lengths"
+    with pytest.raises(CaseFileError, match=f"scheme: godunov; allowed: {allowed}"):
+        case(calcification=SHARP)

@@ -115,6 +115,7 @@ def test_messages_name_a_new_law(command, tmp_path, module, wall, said):
 
 def test_godunov_takes_a_new_linear_law(command, case_file):
     changed(case_file, "scheme: semi_implicit", "scheme: godunov")
+    changed(case_file, "transition: sharp", "transition: {x: 2.5 mm, phi: 67.5 deg}")
     assert command("cases", RUBBER).returncode == 0
     done = command("cases", RUBBER.replace("rubber", "neo_hookean").replace(", share: 0.8", ""))
     assert "godunov with thin, thick, layered, rubber" in done.stderr
