@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from cases.shell.command import COMPLETE, concluded
 from cases.shell.interrupts import interrupts_deferred
-from solver.errors import SolverError
+from solver.errors import ModelError, RunFailure, SolverError
 from solver.runs.files import check_folder, pieces_folder
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def _run(options: argparse.Namespace) -> int:
         from cases.shell.terminal import progress_bar
         from solver.case.locality import locality_warning
         from solver.case.periodicity import periodicity_warning
-        from solver.errors import SolverError
+        from solver.errors import ModelError, RunFailure, SolverError
         from solver.model.diagnostics import Limits
         from solver.runs.resumable import run_identity, run_to_file
 
@@ -80,7 +80,7 @@ def _run(options: argparse.Namespace) -> int:
     with progress_bar(f"{file.name} {chosen}") as progress:
         try:
             done = run_to_file(case, options.output, identity, stated, options.resume, progress)
-        except SolverError as error:
+        except (ModelError, RunFailure) as error:
             raise SolverError(f"{options.case}, variant {chosen}: {error}") from error
     warnings = (
         *doubts_of(case),
