@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from cases.shell.command import COMPLETE, concluded
 from cases.shell.interrupts import interrupts_deferred
-from solver.errors import ModelError, RunFailure, SolverError
+from solver.errors import SolverError
 from solver.runs.files import check_folder, pieces_folder
 
 if TYPE_CHECKING:

@@ -35,7 +35,11 @@ class Template:
 
 
 def load_template(
-    path: Path, variant: str, overrides: Node | None = None, model: str | None = None
+    path: Path,
+    variant: str,
+    overrides: Node | None = None,
+    model: str | None = None,
+    text: str | None = None,
 ) -> Template:
     """Read one variant of a case file that :func:`cases.reading.case_file.load_case_file` accepts.
 
@@ -51,13 +55,15 @@ def load_template(
         Keys to be stated otherwise in addition; merged as a variant is.
     model : str, optional
         One of its models; the first where none is named.
+    text : str, optional
+        What the file held when it was read; read again where it is not given.
 
     Raises
     ------
     CaseFileError
         The file cannot be read.
     """
-    root = parse_yaml(read_text(path), path)
+    root = parse_yaml(read_text(path) if text is None else text, path)
     variants, models = variants_of(root, []), models_of(root, [])
     stated = merged(root, variants, models[model or next(iter(models))])[variant]
     if overrides is not None:

@@ -84,14 +84,15 @@ def uncertain_inputs(
     """By quantity, what uncertain inputs leave open; None where the case says nothing of them."""
     if run.case.uncertainty is None:
         return None
-    with watch.step(f"{labelled(name, model, file.models)}: uncertain inputs"):
+    label = labelled(name, model, file.models)
+    with watch.step(f"{label}: uncertain inputs"):
         return input_uncertainty(
-            load_template(file.path, name, model=model),
+            lambda: load_template(file.path, name, model=model, text=file.text),
             run.case,
             run.reference.alignment.rom_times,
             judged_quantities(),
             watch.cache,
-            watch.remarks.append,
+            lambda said: watch.remarks.append(f"{label}: {said}"),
         )
 
 

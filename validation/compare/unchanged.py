@@ -67,7 +67,7 @@ def unchanged(file: CaseFile, determined_by: str, target: Path) -> Outcome | Non
     of the result is as it was written. A case with a wall law or a reference from outside the packages, or
     with files that name others, is always computed.
     """
-    if _cannot_be_followed(file):
+    if _cannot_be_followed(file) or not all(each.is_file() for each in target.glob("*")):
         return None
     try:
         kept = Seal.model_validate_json((target / SEAL).read_bytes())

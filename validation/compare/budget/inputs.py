@@ -39,7 +39,7 @@ Values = dict[str, Floats]
 
 
 def input_uncertainty(
-    template: Template,
+    template: Callable[[], Template],
     case: Case,
     instants: Floats,
     quantities: Sequence[str],
@@ -50,8 +50,8 @@ def input_uncertainty(
 
     Parameters
     ----------
-    template : Template
-        Of the variant, see :func:`cases.reading.template.load_template`.
+    template : callable
+        Gives that of the variant, see :func:`cases.reading.template.load_template`; asked where samples run.
     case : Case
         The same variant; its ``uncertainty`` says what is uncertain.
     instants : ndarray (n,)
@@ -73,7 +73,7 @@ def input_uncertainty(
         return {}
     numbers, lacking = uncertain_numbers(case)
     if lacking:
-        remark(f"{template.variant}: uncertainty: has no {', '.join(lacking)}: left out")
+        remark(f"uncertainty: has no {', '.join(lacking)}: left out")
     wanted = [name for name in dict.fromkeys(quantities) if "y" not in FIELDS[name].dims]
     if not numbers or not wanted:
         return {}
@@ -89,12 +89,12 @@ def input_uncertainty(
     found = cached_numbers(
         store,
         lambda: key_of("input uncertainty", canonical(parts)),
-        lambda: _computed(_Runs(template, case, instants, wanted), stated, list(numbers.values())),
+        lambda: _computed(_Runs(template(), case, instants, wanted), stated, list(numbers.values())),
         remark,
     )
     said = found.description["said"]
     if said:
-        remark(f"{template.variant}: uncertainty: {said}")
+        remark(f"uncertainty: {said}")
     return found.values
 
 
