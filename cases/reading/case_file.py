@@ -1,5 +1,6 @@
 """Loading a case file: YAML → base and variants → checked cases in SI units."""
 
+import hashlib
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -31,8 +32,8 @@ class CaseFile:
     ----------
     path : pathlib.Path
         The file, as it was given.
-    text : str
-        Its text.
+    text, sha256 : str
+        Its text, and the checksum of its bytes when it was read.
     name, title : str
         Its name (up to 64 letters, digits, - and _) and its title; the title is the name where none is
         stated.
@@ -43,6 +44,7 @@ class CaseFile:
 
     path: Path
     text: str
+    sha256: str
     name: str
     title: str
     models: dict[str, dict[str, Case]]
@@ -108,7 +110,7 @@ def load_case_file(path: str | Path, results_exist: bool = True) -> CaseFile:
         line, key, what was found and what is allowed.
     """
     path = Path(path)
-    text = read_text(path)
+    text, sha256 = read_text(path), hashlib.sha256(path.read_bytes()).hexdigest()
     root = parse_yaml(text, path)
     require_kind(root, path, "case")
     problems = unknown_keys(root, FILE_KEYS)
@@ -125,7 +127,7 @@ def load_case_file(path: str | Path, results_exist: bool = True) -> CaseFile:
     if problems or heading is None:
         raise CaseFileError.of_problems(path, problems)
     by_model = {model: {variant: cases[model, variant] for variant in variants} for model in models}
-    return CaseFile(path, text, heading.name, heading.title or heading.name, by_model)
+    return CaseFile(path, text, sha256, heading.name, heading.title or heading.name, by_model)
 
 
 def merged(root: Node, variants: dict[str, Node], model: Node) -> dict[str, Node]:

@@ -6,7 +6,9 @@ import shutil
 import pytest
 from small_case import IMPOSSIBLE, written
 
+from reports.result.load import load
 from validation.compare import command as compare
+from validation.runs.provenance import checksum
 
 
 class ComputedError(Exception):
@@ -101,3 +103,19 @@ def test_what_changes_while_it_is_computed_is_not_sealed(again, tmp_path, monkey
     monkeypatch.setattr("validation.compare.case.write_reports", meanwhile)
     assert again[0]() == 0
     assert not (tmp_path / "result/checksums.json").exists()
+
+
+def test_a_result_tells_the_case_file_that_was_read(again, tmp_path, monkeypatch):
+    (tmp_path / "result/checksums.json").unlink()
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path)
+    before = checksum(again[1])
+
+    def meanwhile(directory):
+        again[1].write_text(again[1].read_text() + "\n# edited while it was computed\n")
+        load(directory)
+
+    monkeypatch.setattr("validation.compare.case.write_reports", meanwhile)
+    assert again[0]() == 0
+    told = json.loads((tmp_path / "result/provenance.json").read_text(encoding="utf-8"))
+    assert told["case"]["sha256"] == before

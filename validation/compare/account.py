@@ -14,7 +14,7 @@ from validation.compare.comparison import VariantRun
 from validation.metrics.confidence import SEED
 from validation.reference.alignment import WHOLE
 from validation.runs.instants import nearest_states, wanted_instants
-from validation.runs.provenance import provenance
+from validation.runs.provenance import provenance, shown_path
 
 Runs = Mapping[str, Mapping[str, VariantRun]]  # by variant and model
 
@@ -92,6 +92,7 @@ def described(
 ) -> Provenance:
     """Provenance of a finished comparison, with notes and warnings."""
     stated = {
+        "case": {"path": shown_path(file.path), "sha256": file.sha256},
         "seeds": {"bootstrap": SEED} | _seeds_of_inputs(file),
         "wall_times_s": wall_times,
         "notes": [*notes, *notes_of(runs)],
