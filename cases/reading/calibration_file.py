@@ -16,12 +16,23 @@ from cases.reading.template import Template, load_template
 from cases.reading.yaml_nodes import Node, Scalar, parse_yaml, read_text
 from cases.sections.base import Section
 from cases.sections.case import Case
-from cases.values.kinds import Context, ExistingFile, Name, ValueKind, Words, distinct, one_of, refused
+from cases.values.kinds import (
+    STEP_TOLERANCE,
+    Context,
+    ExistingFile,
+    Name,
+    StepTolerance,
+    ValueKind,
+    Words,
+    distinct,
+    one_of,
+    refused,
+)
 from cases.values.ranges import SIZES, Range
 from cases.values.units import DIMENSION_OF_UNIT, DIMENSIONS, parse_quantity
 from cases.values.wording import choices, not_one_of, shown, unknown_key
 
-FILE_KEYS = ("name", "title", "case", "variant", "parameters", "targets", "reference")
+FILE_KEYS = ("name", "title", "case", "variant", "parameters", "targets", "reference", "error_tolerance")
 NOT_OF_AN_ARTERY = "solver"  # whose numbers say how well it is computed
 
 VALUES = {"pressure": Range("pressure", "1 Pa", "1e9 Pa"), "length": SIZES}  # of targets
@@ -122,6 +133,7 @@ class _Heading(Section):
     variant: Name | None = None
     targets: tuple[Target, ...] = ()
     reference: ReferenceTarget | None = None
+    error_tolerance: StepTolerance = STEP_TOLERANCE
 
     _targets = field_validator("targets")(distinct)
 
@@ -169,6 +181,8 @@ class Calibration:
     targets : tuple of Target
         Empty where there is a reference.
     reference : ReferenceTarget or None
+    error_tolerance : float or None
+        Relative error of each target by which the time step is chosen; None: the case's own step.
     """
 
     path: Path
@@ -181,6 +195,7 @@ class Calibration:
     parameters: tuple[Parameter, ...]
     targets: tuple[Target, ...]
     reference: ReferenceTarget | None
+    error_tolerance: float | None
 
     @property
     def case(self) -> Case:
@@ -228,6 +243,7 @@ def load_calibration(path: Path) -> Calibration:
         tuple(parameters),
         heading.targets,
         heading.reference,
+        heading.error_tolerance,
     )
 
 

@@ -96,6 +96,20 @@ class DrawnDesign(Record):
     chunk: Count = 0
 
 
+class ChosenTimeStep(Record):
+    """Time step of a variant's runs, s, that of its case, and what the choice rests on.
+
+    `error` is the largest of any output over its scale, found by halving the step of so many `samples`, and
+    `output` the one that has it; None where a run failed.
+    """
+
+    time_step_s: Positive
+    case_time_step_s: Positive
+    error: float | None
+    output: str
+    samples: Count
+
+
 class SampleCounts(Record):
     """How many samples are recorded, and how many of these failed."""
 
@@ -127,6 +141,8 @@ class SweepAccount(Record):
     states_per_cycle: Count | None = None
     parameters: Annotated[tuple[VariedParameter, ...], Field(min_length=1)]
     outputs: Annotated[tuple[KeptOutput, ...], Field(min_length=1)]
+    error_tolerance: float | None = None
+    time_steps: dict[str, ChosenTimeStep] | None = None
     state: State
     counts: SampleCounts
     sensitivity: tuple[SobolIndex, ...] | None = None

@@ -261,6 +261,17 @@ def ratio(allowed: str, least: float, largest: float) -> ValueKind:
     return ValueKind(parse, allowed, {"type": ["string", "number"]}, "1")
 
 
+STEP_TOLERANCE = 1e-3
+_STEP_TOLERANCE = ratio('a ratio from 1e-6 to 0.1, e.g. "0.1 %", or none', 1e-6, 0.1)
+
+
+def _step_tolerance(value: object, context: Context | None) -> object:
+    """Return None where the word none switches it off; what is left empty is as if it were not stated."""
+    if value == "none":
+        return None
+    return STEP_TOLERANCE if value is None else _STEP_TOLERANCE.parse(value, context)
+
+
 SWITCH = "true, false"
 PATH_SCHEMA = {"type": "string", "minLength": 1}
 
@@ -290,6 +301,9 @@ Scale = Annotated[float, number("a number from 0.001 to 1000", lambda value: 0.0
 Tolerance = Annotated[float, ratio('a ratio from 1e-9 to 0.1, e.g. "0.1 %"', 1e-9, 0.1)]
 CourantLimit = Annotated[float, number("a number from 0.001 to 1e6", lambda value: 0.001 <= value <= 1e6)]
 DefectLimit = Annotated[float, ratio('a ratio from 1e-15 to 1, e.g. "0.1 %"', 1e-15, 1.0)]
+StepTolerance = Annotated[
+    float | None, ValueKind(_step_tolerance, _STEP_TOLERANCE.allowed, _STEP_TOLERANCE.json_schema, "1")
+]
 Switch = Annotated[bool, ValueKind(_switch, SWITCH, {"type": "boolean"})]
 Words = Annotated[str, text("a text", r"(?s).*\S.*")]
 NAME_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}"

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cases.results.sweep import FAILED, KeptOutput, VariedParameter
+from cases.results.sweep import FAILED, ChosenTimeStep, KeptOutput, VariedParameter
 from reports.blocks import Block, Column, Listing, Paragraph, Section, Table, numbers, prose
 from reports.sections.provenance import pairs
 from reports.sweep.amounts import DESIGNS, amount, is_error
@@ -94,9 +94,23 @@ def _outputs(sweep: Sweep) -> Table:
     )
 
 
+def _time_step(variant: str, chosen: ChosenTimeStep, tolerance: float | None) -> str:
+    """Say which time step a variant's samples were run with, and why."""
+    step, own = (f"{rounded(1e3 * each, 3)} ms" for each in (chosen.time_step_s, chosen.case_time_step_s))
+    if chosen.error is None or (tolerance is not None and chosen.error > tolerance):
+        error = "is unknown" if chosen.error is None else f"of {chosen.output} is {rounded(chosen.error, 2)}"
+        return f"{step} ({variant}): the case's own, though its error {error}; tolerance {tolerance:g}"
+    return (
+        f"{step} ({variant}; the case states {own}): largest error {rounded(chosen.error, 2)}, of "
+        f"{chosen.output}, by halving it on {chosen.samples} samples; tolerance {tolerance:g}"
+    )
+
+
 def provenance_section(sweep: Sweep) -> Section:
     """Build the last section."""
     study = sweep.study
+    chosen = (study.time_steps or {}).items()
+    steps = [_time_step(name, step, study.error_tolerance) for name, step in chosen]
     run = {
         "study": study.name,
         "base case": study.base_case,
@@ -104,6 +118,7 @@ def provenance_section(sweep: Sweep) -> Section:
         "design": DESIGNS.get(study.design.kind, study.design.kind),
         "samples": study.design.samples,
         "seed": study.design.seed,
+        "time step": listed(steps) or "the case's own",
         "judged against": study.against,
         "state": f"{study.state}, {len(sweep.samples)} of {study.counts.total} samples recorded",
         "created": study.created,

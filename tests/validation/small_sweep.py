@@ -20,6 +20,7 @@ def study_file(folder: Path, *variants: str, case: dict[str, Any] | None = None,
     """Write a study, and the case that it names; ``keys`` replace or, if None, remove those of the study."""
     written(case or small_case(*(variants or ("local",))), folder)
     stated: dict[str, Any] = {"name": "trial", "base": "small.yaml", "parameters": GRID, "chunk": 2}
+    stated |= {"error_tolerance": "none"}  # steps as of the runs that samples are held against
     stated = {key: value for key, value in (stated | keys).items() if value is not None}
     path = folder / "study.yaml"
     with path.open("w", encoding="utf-8") as stream:

@@ -47,6 +47,7 @@ def calibration_of(tmp_path):
             content[name] |= changes
         case = written(content, tmp_path)
         stated = {"name": "found", "case": str(case), "variant": variant, "parameters": parameters}
+        stated |= {"error_tolerance": "none"}  # steps as of the runs that a fit is held against
         stated |= {"targets": list(targets)} if targets else {"reference": reference}
         path = tmp_path / "calibration.yaml"
         with path.open("w", encoding="utf-8") as stream:

@@ -3,6 +3,7 @@
 from cases.reading.calibration_file import Calibration
 from validation.calibrate.fit import Fit, fit
 from validation.calibrate.targets import Observed, observed
+from validation.calibrate.time_step import step_of_runs
 from validation.runs.cache import open_cache
 from validation.runs.variants import watching
 
@@ -18,5 +19,10 @@ def calibrated(calibration: Calibration, fresh: bool = False) -> tuple[Observed,
     with watching(open_cache(fresh)) as watch:
         wanted = observed(calibration, watch, watch.cache)
         task = watch.display.add_task("least squares", total=None)
-        found = fit(calibration, wanted, lambda runs: watch.display.update(task, description=f"{runs} runs"))
+        step = step_of_runs(calibration, wanted)
+
+        def watched(runs: int) -> None:
+            watch.display.update(task, description=f"{runs} runs")
+
+        found = fit(calibration, wanted, watched, step)
     return wanted, found

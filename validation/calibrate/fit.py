@@ -15,7 +15,9 @@ from cases.sections.case import Case
 from solver.errors import SolverError
 from solver.runs.batch import run_batch
 from validation.calibrate.targets import Observed
+from validation.calibrate.time_step import StepOfRuns
 from validation.errors import ValidationError
+from validation.runs.time_step import at_step
 
 DIFFERENCE = 1e-3  # of a parameter's range: half the interval of the central differences
 SMALL_CHANGE = 1e-2  # of a value, for a difference that limits decades apart do not widen
@@ -45,6 +47,8 @@ class Fit:
         What the fitted case attains, SI.
     runs, failed : int
         Of the reduced model: in all, and those that failed on the way.
+    step : StepOfRuns or None
+        Their time step, where it was chosen.
     """
 
     values: Floats
@@ -54,13 +58,21 @@ class Fit:
     attained: Floats
     runs: int
     failed: int
+    step: StepOfRuns | None = None
 
 
 class _Runs:
     """Runs of a case at points of the unit cube: each is run once."""
 
-    def __init__(self, calibration: Calibration, wanted: Observed, watched: Callable[[int], None]) -> None:
+    def __init__(
+        self,
+        calibration: Calibration,
+        wanted: Observed,
+        watched: Callable[[int], None],
+        step: StepOfRuns | None,
+    ) -> None:
         self.calibration, self.wanted, self.watched = calibration, wanted, watched
+        self.step = step
         self.low = np.array([parameter.low for parameter in calibration.parameters])
         self.width = np.array([parameter.high for parameter in calibration.parameters]) - self.low
         self.known: dict[bytes, Floats] = {}
@@ -72,10 +84,11 @@ class _Runs:
     def _case(self, point: Floats) -> Case | None:
         keys = [parameter.key for parameter in self.calibration.parameters]
         try:
-            return case_with(self.calibration.template, changed_values(keys, self.values(point)))
+            case = case_with(self.calibration.template, changed_values(keys, self.values(point)))
         except CaseError as error:
             self.errors[point.tobytes()] = error
             return None
+        return case if self.step is None else at_step(case, self.step.choice.time_step)
 
     def attained(self, points: Sequence[Floats]) -> list[Floats]:
         """Return what the case attains at points, NaN where it fails; new points are run side by side."""
@@ -134,7 +147,12 @@ class _Runs:
         return ", ".join(f"{parameter.key.name} {value:.6g}" for parameter, value in stated)
 
 
-def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], None]) -> Fit:
+def fit(
+    calibration: Calibration,
+    wanted: Observed,
+    watched: Callable[[int], None],
+    step: StepOfRuns | None = None,
+) -> Fit:
     """Fit the parameters of a calibration by least squares: Gauss–Newton steps within their limits.
 
     Parameters
@@ -144,6 +162,8 @@ def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], Non
         From :func:`validation.calibrate.targets.observed`.
     watched : callable
         Called with the number of runs so far.
+    step : StepOfRuns, optional
+        Time step of all runs; default: the case's own.
 
     Raises
     ------
@@ -157,7 +177,7 @@ def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], Non
             f"{calibration.path}: {count} values for {len(calibration.parameters)} parameters; allowed: as "
             "many as parameters, or more"
         )
-    runs = _Runs(calibration, wanted, watched)
+    runs = _Runs(calibration, wanted, watched, step)
     start = np.array([parameter.start for parameter in calibration.parameters])
     begin = (start - runs.low) / runs.width
     if not np.all(np.isfinite(runs.residuals(begin))):
@@ -196,6 +216,7 @@ def fit(calibration: Calibration, wanted: Observed, watched: Callable[[int], Non
         attained=attained,
         runs=len(runs.known),
         failed=sum(not np.all(np.isfinite(attained)) for attained in runs.known.values()),
+        step=step,
     )
 
 

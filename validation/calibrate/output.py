@@ -3,12 +3,15 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from cases.fields import FIELDS
 from cases.reading.calibration_file import Calibration
 from cases.shell.whole import write_text, writing
 from validation.calibrate.fit import Fit
 from validation.calibrate.fitted_case import require_none_read, snippet
 from validation.calibrate.targets import Observed
+from validation.calibrate.time_step import StepOfRuns
 from validation.errors import ValidationError
 from validation.metrics.statistics import rms
 from validation.runs.output import write_json
@@ -32,6 +35,8 @@ def record_of(calibration: Calibration, wanted: Observed, found: Fit, command: l
         "rms_difference": rms(difference) if len(set(wanted.quantities)) == 1 else None,
         "rms_scaled_difference": rms(difference / wanted.scales),
         "scaled_by": "stated uncertainties" if wanted.uncertain else "size of the values",
+        "error_tolerance": calibration.error_tolerance,
+        "time_step": None if found.step is None else _step_record(wanted, found.step),
         "runs": found.runs,
         "failed_runs": found.failed,
         "provenance": provenance(calibration.path, [calibration.file.path, *case.input_files], command),
@@ -69,6 +74,17 @@ def _target_records(wanted: Observed, found: Fit) -> list[dict[str, Any]]:
         }
         for quantity, words, value, attained, scale in numbers
     ]
+
+
+def _step_record(wanted: Observed, step: StepOfRuns) -> dict[str, Any]:
+    """Time step of all runs as data: with its largest error, None where a run failed, and where that is."""
+    return {
+        "time_step_s": step.choice.time_step,
+        "case_time_step_s": step.own,
+        "error": step.choice.error if np.isfinite(step.choice.error) else None,
+        "target": wanted.names[step.choice.worst],
+        "samples": step.runs,
+    }
 
 
 def check_results(folder: Path, calibration: Calibration) -> None:

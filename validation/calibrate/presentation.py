@@ -8,6 +8,7 @@ from cases.reading.calibration_file import Calibration
 from validation.calibrate.fit import Fit, misses
 from validation.calibrate.output import parameter_records
 from validation.calibrate.targets import Observed
+from validation.calibrate.time_step import words
 
 MOST_ROWS = 20  # of the table of targets
 
@@ -43,6 +44,7 @@ def remarks(calibration: Calibration, wanted: Observed, found: Fit) -> list[str]
     """Sentences that say how sure the numbers are."""
     names = [parameter.key.name for parameter in calibration.parameters]
     told = [f"{found.runs} runs" + (f", {found.failed} of which failed on the way" if found.failed else "")]
+    told += [] if found.step is None else [words(found.step, wanted, calibration.error_tolerance)]
     told += [
         f"errors of {names[a]} and {names[b]} are correlated: {found.correlation[a, b]:+.2f}"
         for a, b in zip(*np.triu_indices(len(names), 1), strict=True)

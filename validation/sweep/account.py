@@ -5,18 +5,22 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from cases.results.sweep import DrawnDesign, SampleCounts, SobolIndex, State, SweepAccount
+from pydantic import TypeAdapter
+from pydantic import ValidationError as PydanticError
+
+from cases.results.sweep import ChosenTimeStep, DrawnDesign, SampleCounts, SobolIndex, State, SweepAccount
 from cases.shell.whole import write_text, writing
+from cases.values.wording import shown
 from validation.errors import ValidationError
 from validation.runs.keys import key_of
 from validation.runs.output import write_json
 from validation.runs.provenance import git_commit, installed, shown_path
 from validation.sweep import outputs, parameters
-from validation.sweep.folder import ACCOUNT, STUDY, Counts
+from validation.sweep.folder import ACCOUNT, STUDY, Counts, begun
 from validation.sweep.judging import STATES
 from validation.sweep.study import Study
 
-OF_ONE_RUN = ("created", "git_commit", "state", "counts", "sensitivity", "page")
+OF_ONE_RUN = ("created", "git_commit", "state", "counts", "sensitivity", "page", "time_steps")
 LIBRARIES = ("dask", "distributed", "numba", "numpy", "pyarrow", "SALib", "scipy", "xarray")
 
 
@@ -28,6 +32,7 @@ def digest_of(study: Study, chunks: Sequence[range]) -> str:
         "design": study.design,
         "against": study.against,
         "outputs": [output.name for output in study.outputs],
+        "error_tolerance": study.error_tolerance,
         "chunks": [[chunk.start, chunk.stop] for chunk in chunks],
     }
     return key_of("sweep", parts)
@@ -55,6 +60,7 @@ def account_of(study: Study, digest: str, total: int, chunk: int) -> SweepAccoun
         states_per_cycle=None if study.against == "reference" else STATES,
         parameters=tuple(parameters.described(parameter) for parameter in study.parameters),
         outputs=tuple(outputs.described(output) for output in study.outputs),
+        error_tolerance=study.error_tolerance,
         state="running",
         counts=SampleCounts(done=0, failed=0, total=total),
     )
@@ -67,6 +73,23 @@ def tells_the_same(earlier: Mapping[str, Any], account: SweepAccount) -> bool:
         return {key: value for key, value in content.items() if key not in OF_ONE_RUN}
 
     return of_the_sweep(earlier) == of_the_sweep(account.written())
+
+
+def chosen_before(folder: Path) -> dict[str, ChosenTimeStep] | None:
+    """Return the time steps that an earlier run of a sweep chose, by variant; None where it did not yet.
+
+    Raises
+    ------
+    ValidationError
+        If its study.json does not say so as this program does.
+    """
+    stated = (begun(folder) or {}).get("time_steps")
+    try:
+        return None if stated is None else TypeAdapter(dict[str, ChosenTimeStep]).validate_python(stated)
+    except PydanticError as error:
+        raise ValidationError(
+            f"{folder / ACCOUNT}: time_steps: {shown(stated)}; no time steps of a sweep; --fresh starts anew"
+        ) from error
 
 
 def write_account(

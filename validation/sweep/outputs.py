@@ -155,6 +155,25 @@ def _own_outputs() -> dict[str, tuple[Output, Measure]]:
 OWN: Mapping[str, tuple[Output, Measure]] = MappingProxyType(_own_outputs())
 
 
+def _size(name: str, field: str) -> tuple[Output, Measure]:
+    def measure(_case: Case, last: xr.Dataset) -> float:
+        return float(np.abs(last[field].to_numpy()).max())
+
+    return _like(name, f"size of the {FIELDS[field].label}", FIELDS[field]), measure
+
+
+# how large the fields are of which outputs are, by unit: small differences are measured by it
+SIZES: Mapping[str, tuple[Output, Measure]] = MappingProxyType(
+    {
+        FIELDS[field].unit: _size(f"{field}_size", field)
+        for field in ("section_pressure", "radius", "section_flow_rate")
+    }
+)
+MEASURES: Mapping[str, Measure] = MappingProxyType(
+    {output.name: measure for output, measure in (*OWN.values(), *SIZES.values())}
+)
+
+
 def judged_output(bands: tuple[Band, ...]) -> Output:
     """Return the output that bands of one quantity and one statistic judge."""
     band = bands[0]

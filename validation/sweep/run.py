@@ -11,7 +11,14 @@ from cases.results.sweep import SweepAccount
 from cases.shell.interrupts import interrupts_deferred
 from validation.errors import ValidationError
 from validation.reference.generated import check_computed
-from validation.sweep.account import account_of, digest_of, tells_the_same, write_account, write_study
+from validation.sweep.account import (
+    account_of,
+    chosen_before,
+    digest_of,
+    tells_the_same,
+    write_account,
+    write_study,
+)
 from validation.sweep.design import samples_of
 from validation.sweep.folder import (
     ACCOUNT,
@@ -126,6 +133,7 @@ def _run(
             judges = judges_of(study, tell)  # a reference that cannot be read leaves the earlier sweep
             cleared(where.folder)
         _refuse_another(where.folder, account.digest)  # it may be another by now
+        account = account.model_copy(update={"time_steps": chosen_before(where.folder)})
         present = parts_present(where.folder, chunks, schema)
         write_study(where.folder, study)
         counts = sum(present.values(), Counts())
@@ -137,9 +145,9 @@ def _run(
                 judges = judges or judges_of(study, tell)
                 run_missing(samples, missing, judges, where.scheduler, where.workers, keep, tell)
         except BaseException:
-            write_account(where.folder, account, "interrupted", keep.counts)
+            write_account(where.folder, keep.account, "interrupted", keep.counts)
             raise
-        write_account(where.folder, account, "finished", keep.counts, sensitivity(study, where.folder))
+        write_account(where.folder, keep.account, "finished", keep.counts, sensitivity(study, where.folder))
     return keep.counts
 
 

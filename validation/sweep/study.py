@@ -16,9 +16,11 @@ from cases.reading.yaml_nodes import Node, parse_yaml, read_text
 from cases.sections.base import Section
 from cases.sections.case import Case
 from cases.values.kinds import (
+    STEP_TOLERANCE,
     Context,
     ExistingFile,
     Name,
+    StepTolerance,
     ValueKind,
     Words,
     distinct,
@@ -45,6 +47,7 @@ STUDY_KEYS = (
     "design",
     "against",
     "outputs",
+    "error_tolerance",
     "chunk",
 )
 
@@ -73,6 +76,7 @@ class _Stated(Section):
     design: Design = Field(default=Design(kind="grid"))
     against: Annotated[Against, one_of(Against)] = "none"
     outputs: Names | None = None
+    error_tolerance: StepTolerance = STEP_TOLERANCE
     chunk: Chunk | None = None
 
 
@@ -98,6 +102,8 @@ class Study:
         What each sample is judged against: ``none``, ``coupled`` or ``reference``.
     outputs : tuple of Output
         What is kept of each sample.
+    error_tolerance : float or None
+        Relative error of each output by which the time step is chosen; None: the case's own step.
     chunk : int or None
         Samples computed in one task and kept in one file; None where the study leaves it open.
     """
@@ -113,6 +119,7 @@ class Study:
     design: Design
     against: Against
     outputs: tuple[Output, ...]
+    error_tolerance: float | None
     chunk: int | None = None
 
 
@@ -144,7 +151,7 @@ def load_study(path: Path) -> Study:
         raise CaseFileError.of_problems(path, problems)
     return Study(
         path, text, stated.name, stated.title or stated.name, stated.base, templates, cases, parameters,
-        stated.design, stated.against, outputs, stated.chunk,
+        stated.design, stated.against, outputs, stated.error_tolerance, stated.chunk,
     )  # fmt: skip
 
 

@@ -1,0 +1,116 @@
+"""The time step of many runs of one kind, chosen by its error: the longest that keeps every number."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from cases.arrays import Floats
+from cases.sections.case import Case
+from cases.sections.solver import SemiImplicitSolver
+
+LONGEST = 8.0  # times the case's own step
+SECOND_ORDER = 4.0 / 3.0  # error of a step Δt, of the difference that half of it makes
+SHORTER = 1.0 - 1e-9  # of a step: what is longer is the same one
+SAMPLE = 16  # runs by which a step is judged, at most
+
+Numbers = Callable[[float], Floats]
+Scales = Callable[[Floats], Floats]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A time step and its error.
+
+    Attributes
+    ----------
+    time_step : float
+        s.
+    error : float
+        Largest error of any number over its scale; inf where a run fails or no number is known.
+    worst : int
+        Which number has it.
+    """
+
+    time_step: float
+    error: float
+    worst: int
+
+
+def takes_equal_steps(case: Case) -> bool:
+    """Whether a case's step may be chosen: neither an explicit scheme's nor one that it adapts itself."""
+    return isinstance(case.solver, SemiImplicitSolver) and case.solver.error_tolerance is None
+
+
+def at_step(case: Case, time_step: float) -> Case:
+    """Case with another time step, s."""
+    return case.model_copy(update={"solver": case.solver.model_copy(update={"time_step": time_step})})
+
+
+def candidates(own: float, interval: float) -> list[float]:
+    """Steps from the longest to the case's own, s, each half of the one before, but for the last.
+
+    Parameters
+    ----------
+    own : float
+        The case's own step, s: the shortest.
+    interval : float
+        Longest time between two states of the last cycle, s, on each of which a step ends: the steps divide
+        it, for all longer ones are the same.
+    """
+    longest = min(LONGEST * own, interval)
+    step = interval / np.ceil(interval / longest * SHORTER)
+    found = []
+    while step * SHORTER > own:
+        found.append(float(step))
+        step *= 0.5
+    return [*found, own]
+
+
+def chosen(
+    own: float, times: Floats, cycle_begins: float, numbers: Numbers, scales: Scales, limit: float
+) -> Choice:
+    """Longest step whose error is at most ``limit``; the case's own where that errs by more too.
+
+    Half of a step makes a difference of ¾ of its error, for the scheme is of second order in time.
+
+    Parameters
+    ----------
+    own : float
+        The case's own step, s.
+    times : ndarray (n_times,)
+        Instants on which a step ends, s.
+    cycle_begins : float
+        Where the last cycle begins, s.
+    numbers : callable
+        Takes a step, s, and returns what is wanted of each run (n_runs, n_numbers), NaN where it has no
+        meaning.
+    scales : callable
+        Takes such numbers and returns what the errors of each are divided by (n_numbers,).
+    limit : float
+        Largest error allowed, relative.
+    """
+    known: dict[bytes, Floats] = {}
+
+    def at(step: float) -> Floats:
+        same = np.ceil(np.diff(times) / step * SHORTER).tobytes()  # numbers of steps between the instants
+        if same not in known:
+            known[same] = numbers(step)
+        return known[same]
+
+    interval = float(np.max(np.diff(times[times >= cycle_begins * SHORTER])))
+    for step in candidates(own, interval):
+        fine = at(0.5 * step)
+        errors = SECOND_ORDER * _differences(at(step), fine) / scales(fine)
+        worst = int(np.argmax(errors))
+        choice = Choice(step, float(errors[worst]), worst)
+        if choice.error <= limit:
+            break
+    return choice
+
+
+def _differences(one: Floats, other: Floats) -> Floats:
+    """Largest difference of each number over the runs (n_numbers,); inf where one has it alone, or none."""
+    alone = np.isnan(one) != np.isnan(other)
+    apart = np.where(alone, np.inf, np.nan_to_num(np.abs(one - other), nan=0.0))
+    return np.where(np.isnan(one).all(), np.inf, apart.max(axis=0))
