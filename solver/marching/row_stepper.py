@@ -143,8 +143,14 @@ class Stepper:
         values = np.ascontiguousarray(inlet_values, dtype=float)
         if outlet_offsets is None:
             outlet_offsets = offsets(self.model, self.time + time_step * np.arange(1, values.size + 1))
-        stepping = layout.Stepping(float(time_step), float(theta), self.tolerance, MAX_SWEEPS)
         before = lumen_volume(self.model, self._fields.area)
+        self.take(values, time_step, theta, outlet_offsets)
+        change = lumen_volume(self.model, self._fields.area) - before
+        return mass_defect(self.model, self._kernel.workspace.exchanged, change, time_step)
+
+    def take(self, values: Floats, time_step: float, theta: float, outlet_offsets: Floats) -> None:
+        """Take steps as :meth:`advance`, without the mass defect."""
+        stepping = layout.Stepping(float(time_step), float(theta), self.tolerance, MAX_SWEEPS)
         kernel = self._kernel
         kernel.workspace.exchanged[:] = 0.0
         status, i, j, steps, sweeps = kernel.advance(
@@ -157,8 +163,11 @@ class Stepper:
             raise failure(status, self.time + time_step, i, j)
         if not (np.all(np.isfinite(self._fields.area)) and np.all(np.isfinite(self._fields.flow))):
             raise NotFinite(self.time, 0, 0)
-        change = lumen_volume(self.model, self._fields.area) - before
-        return mass_defect(self.model, kernel.workspace.exchanged, change, time_step)
+
+    def save(self, area: Floats, flow: Floats, pressure: Floats) -> None:
+        """Copy A and P of cells (n_x, n_phi) and Q of faces (n_x + 1, n_phi) of the state."""
+        f = self._of_scheme()
+        area[...], flow[...], pressure[...] = f.area, f.flow, f.pressure
 
 
 def failure(status: int, time: float, i: int, j: int) -> RunFailure:

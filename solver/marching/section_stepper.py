@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from cases.arrays import Floats
 from solver.errors import ModelError
 from solver.marching import two_modes
 from solver.marching.row_stepper import INLETS, Kernel, Stepper, outlet_numbers
@@ -36,6 +37,11 @@ class SectionStepper(Stepper):
     def _fields_of(self, state: State) -> Any:
         fields = fields_of(self.model, state)
         return fields if self.model.two_modes is None else two_modes.fields_of(fields, self.model, state)
+
+    def save(self, area: Floats, flow: Floats, pressure: Floats) -> None:
+        """Copy A and P of cells (n_x, n_phi) and Q of faces (n_x + 1, n_phi) of the state."""
+        f = self._of_scheme()
+        area[...], flow[...], pressure[...] = f.area, f.flow, f.pressure[1:-1, None]
 
     def state(self) -> State:
         """Return an independent copy of the state."""

@@ -68,9 +68,9 @@ def require_exponents(times: Floats, exponent: Floats) -> None:
     NoAdmissibleProfile
         With the first such state and cell.
     """
-    missing = np.argwhere(~np.isfinite(exponent))
-    if missing.size:
-        n, i, j = (int(k) for k in missing[0])
+    known = np.isfinite(exponent)
+    if not np.all(known):
+        n, i, j = (int(k) for k in np.argwhere(~known)[0])
         raise NoAdmissibleProfile(float(times[n]), i + 1, j + 1)
 
 

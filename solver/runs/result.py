@@ -1,5 +1,7 @@
 """A finished run as an xarray dataset with CF-style names and units."""
 
+from collections.abc import Callable, Collection
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -47,8 +49,8 @@ class CellHistory(NamedTuple):
     axis_velocity: Floats | None = None
 
 
-def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
-    """Fields of a run at cell centres.
+def cell_dataset(model: Model, cells: CellHistory, names: Collection[str] | None = None) -> xr.Dataset:
+    """Fields of a run at cell centres; only those of ``names``, where such are stated.
 
     Returns
     -------
@@ -58,30 +60,34 @@ def cell_dataset(model: Model, cells: CellHistory) -> xr.Dataset:
         modes axis_velocity on (time, x) and profile_bend on (time, x, phi) stand for profile_exponent;
         wall_stiffness on (x, phi); the diagnostics on (time). SI.
     """
-    sector = 0.5 * model.grid.dphi * cells.flow
-    fields = {
-        "pressure": cells.pressure,
-        "radius": np.sqrt(cells.area),
-        "mean_velocity": cells.flow / cells.area,
-        "sector_flow_rate": sector,
-        "section_flow_rate": sector.sum(axis=-1),
-        "section_pressure": section_mean(cells.pressure, cells.area),
-        "wall_stiffness": model.stiffness,
-        **cells.diagnostics,
+    fields: dict[str, Callable[[], Floats]] = {
+        "pressure": lambda: cells.pressure,
+        "radius": lambda: np.sqrt(cells.area),
+        "mean_velocity": lambda: cells.flow / cells.area,
+        "sector_flow_rate": lambda: 0.5 * model.grid.dphi * cells.flow,
+        "section_flow_rate": lambda: (0.5 * model.grid.dphi * cells.flow).sum(axis=-1),
+        "section_pressure": lambda: section_mean(cells.pressure, cells.area),
+        "wall_stiffness": lambda: model.stiffness,
+        **{name: partial(np.asarray, values) for name, values in cells.diagnostics.items()},
+        **_of_profiles(model, cells),
     }
-    if model.two_modes is None or cells.axis_velocity is None:
-        fields["profile_exponent"] = cells.exponent
-    else:
-        d = cells.axis_velocity
-        fields |= {
-            "axis_velocity": d,
-            "profile_bend": model.two_modes.bend(fields["mean_velocity"], d[..., None]),
-        }
-    if cells.azimuthal_flux is not None:
-        fields["azimuthal_flux"] = cells.azimuthal_flux
     dataset = coordinates(cells.times, model.grid.x, model.grid.phi)
-    dataset = dataset.assign({name: described(name, values) for name, values in fields.items()})
+    wanted = {name: make for name, make in fields.items() if names is None or name in names}
+    dataset = dataset.assign({name: described(name, make()) for name, make in wanted.items()})
     return dataset.assign_attrs(Conventions=CONVENTIONS)
+
+
+def _of_profiles(model: Model, cells: CellHistory) -> dict[str, Callable[[], Floats]]:
+    """What tells the velocity profiles, and the flux between rows where they exchange blood."""
+    modes, d, flux = model.two_modes, cells.axis_velocity, cells.azimuthal_flux
+    exchange: dict[str, Callable[[], Floats]] = {} if flux is None else {"azimuthal_flux": lambda: flux}
+    if modes is None or d is None:
+        return {"profile_exponent": lambda: cells.exponent, **exchange}
+    return {
+        "axis_velocity": lambda: d,
+        "profile_bend": lambda: modes.bend(cells.flow / cells.area, d[..., None]),
+        **exchange,
+    }
 
 
 def section_mean(values: Floats, area: Floats) -> Floats:

@@ -15,7 +15,7 @@ from cases.reading.calibration_file import load_calibration
 from cases.results.sweep import ChosenTimeStep
 from reports.sweep import write_sweep_page
 from validation.calibrate import command as calibrate
-from validation.runs.time_step import at_step, candidates, chosen, takes_equal_steps
+from validation.runs.time_step import at_step, chosen, takes_equal_steps
 from validation.sweep.chunk import Plan, run_chunk
 from validation.sweep.command import main
 from validation.sweep.samples import samples_of_study
@@ -37,18 +37,26 @@ def ones(values):
     return np.ones(values.shape[1])
 
 
-def test_candidates_divide_the_time_between_states_and_end_with_the_cases_own():
-    assert candidates(1e-3, 0.01) == pytest.approx([0.005, 0.0025, 0.00125, 0.001])
-    assert candidates(1e-3, 0.00797) == pytest.approx([0.00797, 0.003985, 0.0019925, 0.001])
-    assert candidates(1e-3, 0.02)[0] == pytest.approx(0.02 / 3)  # 8 ms does not divide it
-    assert candidates(4e-3, 2e-3) == [4e-3]
-    assert all(step >= 1e-3 for step in candidates(1e-3, 0.1))
+def test_steps_divide_the_time_between_states_and_are_at_most_eight_times_the_cases_own():
+    def longest(own, interval):
+        return chosen(own, np.arange(5) * interval, 0.0, lambda _: np.ones((1, 1)), ones, 1e-3).time_step
+
+    assert longest(1e-3, 0.00797) == pytest.approx(0.00797)
+    assert longest(1e-3, 0.02) == pytest.approx(0.02 / 3)  # 8 ms does not divide it
+    assert longest(4e-3, 2e-3) == 4e-3
+
+
+def test_times_before_the_last_cycle_do_not_count():
+    times = np.concatenate([np.linspace(0.0, 0.9, 10), np.linspace(1.0, 2.0, 401)])
+    assert chosen(1e-3, times, 1.0, lambda _: np.ones((1, 1)), ones, 1e-3).time_step == pytest.approx(2.5e-3)
 
 
 @pytest.mark.parametrize(
-    ("limit", "expected"), [(1e-3, 0.005), (2.6e-4, 0.0025), (7e-5, 0.00125), (4.1e-5, 0.001), (1e-5, 0.001)]
+    ("limit", "expected"),
+    [(1e-3, 0.005), (5e-4, 0.01 / 3), (2.6e-4, 0.0025), (7e-5, 0.00125), (4.1e-5, 0.001), (1e-5, 0.001)],
 )
-def test_the_longest_step_that_keeps_the_tolerance_is_chosen(limit, expected):
+def test_the_longest_step_that_keeps_the_tolerance_is_chosen(limit, pieces):
+    expected = 0.01 / pieces
     factor = 40.0  # errors 1e-3, 2.5e-4, 6.25e-5, 4e-5
     found = chosen(1e-3, TIMES, 0.0, second_order(factor), ones, 1.001 * limit)
     assert found.time_step == pytest.approx(expected)

@@ -84,6 +84,7 @@ DETERMINANTS: dict[Kind, tuple[str, ...]] = {
         "validation/ablation/ladder.py",
         "validation/metrics",
         "validation/runs/sources.py",
+        "validation/runs/time_step.py",
         "validation/sweep",
     ),
     "input uncertainty": (

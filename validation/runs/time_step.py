@@ -12,6 +12,7 @@ from cases.sections.solver import SemiImplicitSolver
 LONGEST = 8.0  # times the case's own step
 SECOND_ORDER = 4.0 / 3.0  # error of a step Δt, of the difference that half of it makes
 SHORTER = 1.0 - 1e-9  # of a step: what is longer is the same one
+FASTEST = 2.0  # a step over the next one that is tried
 SAMPLE = 16  # runs by which a step is judged, at most
 
 Numbers = Callable[[float], Floats]
@@ -47,32 +48,14 @@ def at_step(case: Case, time_step: float) -> Case:
     return case.model_copy(update={"solver": case.solver.model_copy(update={"time_step": time_step})})
 
 
-def candidates(own: float, interval: float) -> list[float]:
-    """Steps from the longest to the case's own, s, each half of the one before, but for the last.
-
-    Parameters
-    ----------
-    own : float
-        The case's own step, s: the shortest.
-    interval : float
-        Longest time between two states of the last cycle, s, on each of which a step ends: the steps divide
-        it, for all longer ones are the same.
-    """
-    longest = min(LONGEST * own, interval)
-    step = interval / np.ceil(interval / longest * SHORTER)
-    found = []
-    while step * SHORTER > own:
-        found.append(float(step))
-        step *= 0.5
-    return [*found, own]
-
-
 def chosen(
     own: float, times: Floats, cycle_begins: float, numbers: Numbers, scales: Scales, limit: float
 ) -> Choice:
     """Longest step whose error is at most ``limit``; the case's own where that errs by more too.
 
-    Half of a step makes a difference of ¾ of its error, for the scheme is of second order in time.
+    Steps divide the longest time between two states of the last cycle, on each of which one ends: all longer
+    ones are the same. Half of a step makes a difference of ¾ of its error, for the scheme is of second order
+    in time; so the error of one step tells which shorter one is tried next.
 
     Parameters
     ----------
@@ -98,15 +81,22 @@ def chosen(
             known[same] = numbers(step)
         return known[same]
 
-    interval = float(np.max(np.diff(times[times >= cycle_begins * SHORTER])))
-    for step in candidates(own, interval):
+    def judged(step: float) -> Choice:
         fine = at(0.5 * step)
         errors = SECOND_ORDER * _differences(at(step), fine) / scales(fine)
         worst = int(np.argmax(errors))
-        choice = Choice(step, float(errors[worst]), worst)
+        return Choice(step, float(errors[worst]), worst)
+
+    interval = float(np.max(np.diff(times[times >= cycle_begins * SHORTER])))
+    most = int(np.ceil(interval / own * SHORTER))  # the case's own steps between two states
+    pieces = int(np.ceil(interval / min(LONGEST * own, interval) * SHORTER))
+    while pieces < most:
+        choice = judged(interval / pieces)
         if choice.error <= limit:
-            break
-    return choice
+            return choice
+        wanted = pieces * np.sqrt(min(choice.error / limit, FASTEST**2))
+        pieces = max(pieces + 1, int(np.ceil(wanted * SHORTER)))
+    return judged(own)
 
 
 def _differences(one: Floats, other: Floats) -> Floats:

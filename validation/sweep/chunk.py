@@ -5,8 +5,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
+from cases.arrays import Floats
 from cases.results.sweep import FAILED, OK
 from cases.sections.case import Case
 from solver.model.parameters import Model
@@ -15,7 +17,7 @@ from solver.runs.result import CellHistory, cell_dataset
 from validation.ablation.ladder import coupled_model
 from validation.runs.reduced_model import change_of, run_times
 from validation.runs.time_step import at_step
-from validation.sweep.outputs import CYCLE_CHANGE, MEASURES, Output
+from validation.sweep.outputs import CYCLE_CHANGE, MEASURED, MEASURES, Output
 from validation.sweep.samples import Sample
 from validation.sweep.standards import Standard, instants_of, judged_values
 
@@ -75,10 +77,12 @@ def _run(sample: Sample, case: Case, plan: Plan) -> Record:
     standard = plan.standards[sample.variant]
     cases = [case, *([coupled_model(case)] if standard.against == "coupled" else [])]
     instants = instants_of(standard, case)
+    needed = None if any(output.bands for output in plan.outputs) else MEASURED
 
     def last_cycle(model: Model, cells: CellHistory) -> xr.Dataset:
-        whole = cell_dataset(model, cells)
-        return whole.sel(time=instants).assign_attrs({CYCLE_CHANGE: change_of(cases[0], whole)})
+        whole = cell_dataset(model, cells, needed)
+        change = change_of(cases[0], whole)
+        return _at(whole, instants).assign_attrs({CYCLE_CHANGE: change})
 
     outcomes = run_batch(cases, run_times(case, instants), last_cycle, THREADS)
     seconds = sum(outcome.cpu_s for outcome in outcomes)
@@ -89,6 +93,13 @@ def _run(sample: Sample, case: Case, plan: Plan) -> Record:
         lasts.append(outcome.kept)
     values = _values(case, standard, lasts, plan.outputs)
     return _stated(sample, plan, OK, None, seconds) | values
+
+
+def _at(whole: xr.Dataset, instants: Floats) -> xr.Dataset:
+    """States at instants of a run; without copying them where they follow each other."""
+    places = np.searchsorted(whole["time"].to_numpy(), instants)
+    follow = np.array_equal(places, np.arange(places[0], places[0] + places.size))
+    return whole.isel(time=slice(places[0], places[0] + places.size)) if follow else whole.sel(time=instants)
 
 
 def _stated(sample: Sample, plan: Plan, status: str, error: str | None, seconds: float) -> Record:

@@ -10,7 +10,7 @@ from distributed import Client, LocalCluster
 
 from validation.errors import ValidationError
 from validation.runs.sources import code_digest
-from validation.sweep.forks import METHOD, ONE_THREAD, import_ahead
+from validation.sweep.forks import METHOD, OF_WORKERS, import_ahead
 
 PROCESSES, THREADS = "processes", "threads"
 CONNECT_WITHIN = "10s"
@@ -24,7 +24,7 @@ logging.getLogger("tornado.application").setLevel(logging.CRITICAL)
 """
 SETTINGS = {
     "distributed.worker.multiprocessing-method": METHOD,
-    "distributed.nanny.pre-spawn-environ": {**ONE_THREAD, "MALLOC_TRIM_THRESHOLD_": "65536"},
+    "distributed.nanny.pre-spawn-environ": OF_WORKERS,
     "distributed.scheduler.allowed-failures": 3,  # workers that may die with one task
     "distributed.admin.large-graph-warning-threshold": "1GiB",  # a reference travels once
     "distributed.comm.retry.count": 2,

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 Measure = Callable[[Case, "xr.Dataset"], float]
 
+MEASURED = ("pressure", "radius", "section_flow_rate", "section_pressure")  # fields that outputs are of
 CYCLE_CHANGE = "cycle_change"  # output, and attribute of a last cycle that tells it
 
 
