@@ -52,8 +52,8 @@ def test_times_before_the_last_cycle_do_not_count():
 
 
 @pytest.mark.parametrize(
-    ("limit", "expected"),
-    [(1e-3, 0.005), (5e-4, 0.01 / 3), (2.6e-4, 0.0025), (7e-5, 0.00125), (4.1e-5, 0.001), (1e-5, 0.001)],
+    ("limit", "pieces"),  # of the 10 ms between two states
+    [(1e-3, 2), (5e-4, 3), (2.6e-4, 4), (7e-5, 8), (4.1e-5, 10), (1e-5, 10)],
 )
 def test_the_longest_step_that_keeps_the_tolerance_is_chosen(limit, pieces):
     expected = 0.01 / pieces
