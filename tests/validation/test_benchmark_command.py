@@ -5,6 +5,7 @@ import json
 import pytest
 
 from validation.benchmark import command as benchmark
+from validation.benchmark import precision
 
 pytestmark = pytest.mark.slow
 
@@ -60,7 +61,56 @@ def test_every_row_is_measured_shown_and_kept(tiny, monkeypatch, capsys, quick, 
     assert {"created", "git_commit", "python", "versions"} <= set(kept)
 
 
-@pytest.mark.parametrize("arguments", [["--repeat", "0"], ["--output", "absent/speed.json"]])
+@pytest.fixture
+def coarse(tmp_path, monkeypatch):
+    """The benchmark's case, on few cells."""
+    text = benchmark.CASE.read_text(encoding="utf-8")
+    path = tmp_path / "coarse.yaml"
+    path.write_text(
+        text.replace("n_x: 120, n_phi: 48", "n_x: 24, n_phi: 8")
+        .replace("time_step: 3.125 us", "time_step: 12.5 us")
+        .replace("reference_data/", f"{benchmark.ROOT}/reference_data/"),
+        encoding="utf-8",
+    )
+    monkeypatch.setattr(benchmark, "CASE", path)
+    return path
+
+
+def test_work_and_precision_are_measured_drawn_and_kept(coarse, monkeypatch, capsys):
+    monkeypatch.setattr(precision, "PIECES", (1, 2))
+    monkeypatch.setattr(precision, "FINE_PIECES", 8)
+    monkeypatch.setattr(precision, "GRIDS", (0.5, 1.0))
+    monkeypatch.setattr(precision, "EXPLICIT_GRIDS", (0.5,))
+    monkeypatch.setattr(precision, "STATES", 200)
+    monkeypatch.setattr(precision, "TOLERANCES", (1e-2, 1e-6))
+    monkeypatch.setattr(precision, "LOCAL_TOLERANCES", (1e-3, 1e-5))
+    output = coarse.with_name("precision.json")
+    assert benchmark.main(["--precision", "--repeat", "1", "--output", str(output)]) == 0
+    kept = json.loads(output.read_text(encoding="utf-8"))
+    points = kept["points"]
+    assert [point for point in points if point["error"] is None] == []
+    assert all(point["cpu_s"] > 0 for point in points)
+    assert {(point["series"], point["model"]) for point in points} == {
+        (series, model)
+        for series in ("time steps", "grids", "local error", "error_tolerance")
+        for model in ("row", "coupled")
+    }
+    assert {point["scheme"] for point in points} == {"semi_implicit", "godunov"}
+    for model in ("row", "coupled"):
+        for series in ("time steps", "local error"):
+            line = [p["error"] for p in points if (p["series"], p["model"]) == (series, model)]
+            assert line[1] < line[0]
+        loose, strict = (p for p in points if (p["series"], p["model"]) == ("error_tolerance", model))
+        assert loose["error"] < 1e-2
+        assert loose["time_step"] > strict["time_step"] == 1e-3  # the case's own
+    assert "<svg" in output.with_suffix(".svg").read_text(encoding="utf-8")
+    assert "results: " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["--repeat", "0"], ["--output", "absent/speed.json"], ["--precision", "--quick"]],
+)
 def test_wrong_arguments_exit_2(arguments, capsys):
     with pytest.raises(SystemExit) as stop:
         benchmark.main(arguments)

@@ -14,6 +14,7 @@ from validation.errors import ValidationError
 ROOT = Path(__file__).parents[2]
 CASE = ROOT / "benchmarks" / "thesis.yaml"
 RESULT = ROOT / "benchmarks" / "solver_speed.json"
+PRECISION = ROOT / "benchmarks" / "work_precision.json"
 QUICK_STEPS = 4000  # of the explicit scheme
 PAGE_WIDTH = 110
 
@@ -25,8 +26,16 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--quick", action="store_true", help=f"{QUICK_STEPS} steps of scheme godunov, extrapolated to all"
     )
-    parser.add_argument("--output", type=Path, default=RESULT, help="JSON file, default %(default)s")
+    parser.add_argument(
+        "--precision", action="store_true", help="error against cost for steps, grids and tolerances instead"
+    )
+    parser.add_argument(
+        "--output", type=Path, help=f"JSON file, default {RESULT}; with --precision {PRECISION} and its .svg"
+    )
     chosen = parser.parse_args(argv)
+    chosen.output = chosen.output or (PRECISION if chosen.precision else RESULT)
+    if chosen.precision and chosen.quick:
+        parser.error("--quick: allowed without --precision")
     if chosen.repeat < 1:
         parser.error(f"--repeat {chosen.repeat}; allowed: 1 or more")
     if not chosen.output.absolute().parent.is_dir():
@@ -39,7 +48,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     stated = sys.argv[1:] if argv is None else argv
     chosen = arguments(stated)
     command = ["python", "-m", "validation.benchmark", *stated]
-    return concluded(lambda: _run(chosen, command), "interrupted; nothing was written")
+    run = _precision if chosen.precision else _run
+    return concluded(lambda: run(chosen, command), "interrupted; nothing was written")
 
 
 def _run(chosen: argparse.Namespace, command: list[str]) -> int:
@@ -58,4 +68,29 @@ def _run(chosen: argparse.Namespace, command: list[str]) -> int:
     for row in rows:
         if row.extrapolated:
             console.print(f"≈ {row.name}: extrapolated from {row.wall_s[0]:.3g} s to all {row.steps} steps")
+    return COMPLETE
+
+
+def _precision(chosen: argparse.Namespace, command: list[str]) -> int:
+    with interrupts_deferred():
+        from rich.console import Console
+
+        from cases.values.kinds import STEP_TOLERANCE
+        from reports.figures.work_precision import work_precision
+        from validation.benchmark.precision import lines_of, measure, result_of
+
+    with Console(stderr=True).status("") as status:
+        points = measure(CASE, chosen.repeat, status.update)
+    figure = chosen.output.with_suffix(".svg")
+    with writing(chosen.output, ValidationError):
+        write_text(chosen.output, json.dumps(result_of(points, CASE, command), indent=1) + "\n")
+        write_text(figure, work_precision(lines_of(points), STEP_TOLERANCE))
+    for point in points:
+        told = point.output if point.error is None else f"{point.error:.1e} ({point.output})"
+        limit = "" if point.tolerance is None else f", tolerance {point.tolerance:g}"
+        print(
+            f"{point.model}, {point.scheme}, {point.series}: {point.n_x} × {point.n_phi}, "
+            f"{1e3 * point.time_step:.4g} ms{limit}: {point.cpu_s:.3g} s, error {told}"
+        )
+    print(f"results: {chosen.output}, {figure}")
     return COMPLETE
