@@ -5,8 +5,9 @@
 Every case has another calcification, viscosity and outlet. Three kinds: patches anywhere, of which all rows
 are computed; patches symmetric about φ = 180 deg, of which one half is; and rings, of which one row is. The
 cost of a case in the batch holds all that it takes: checking its values, its wall, its steady start, the run
-and the few numbers kept. Costs are processor seconds, so that other work on the machine counts little; ratios
-are of one and the same run of this script.
+and the few numbers kept. The last batch takes the time step that `error_tolerance` chooses, as a sweep does;
+its cost holds the choice, and its numbers are held against those of the case's own step. Costs are processor
+seconds, so that other work on the machine counts little; ratios are of one and the same run of this script.
 """
 
 import argparse
@@ -18,24 +19,27 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.stats import qmc
 
+from cases.arrays import Floats
 from cases.reading.calibration_file import changed_values
 from cases.reading.case_file import load_case_file
 from cases.reading.numeric_keys import numeric_keys
 from cases.reading.template import case_with, load_template
 from cases.sections.case import Case
 from cases.shell.whole import write_text
+from cases.values.kinds import STEP_TOLERANCE
 from solver.case.run import run_case
 from solver.model.parameters import Model
 from solver.runs.batch import run_batch
 from solver.runs.result import CellHistory, section_mean
 from validation.runs.provenance import provenance
+from validation.runs.time_step import SAMPLE, at_step, chosen
 
 ROOT = Path(__file__).parents[1]
 CASE = ROOT / "benchmarks" / "thesis.yaml"
@@ -100,19 +104,41 @@ def command_cpu_s(path: Path, folder: Path, count: int) -> float:
     return statistics.median(spent)
 
 
-def batch_row(path: Path, kind: str, count: int, threads: int) -> dict[str, Any]:
+def kept_of(cases: Sequence[Case], times: Floats, threads: int) -> Floats:
+    """Numbers of each case (n, 3), NaN where it fails."""
+    outcomes = run_batch(cases, times, numbers, threads)
+    return np.array([(np.nan,) * 3 if outcome.kept is None else outcome.kept for outcome in outcomes])
+
+
+def step_of(cases: Sequence[Case], times: Floats, threads: int) -> float:
+    """Time step that keeps each number of a sample of cases to `error_tolerance`'s default, s."""
+    some = [cases[n] for n in np.unique(np.linspace(0, len(cases) - 1, SAMPLE).astype(int))]
+
+    def at(step: float) -> Floats:
+        return kept_of([at_step(case, step) for case in some], times, threads)
+
+    def scales(values: Floats) -> Floats:
+        return np.nanmax(np.abs(values), axis=0)
+
+    return chosen(cases[0].solver.time_step, times, 0.0, at, scales, STEP_TOLERANCE).time_step
+
+
+def batch_row(path: Path, kind: str, count: int, threads: int, choose: bool = False) -> dict[str, Any]:
     """Measure one batch, reading and checking its cases included; what it costs a case."""
-    failed: list[str] = []
+    found: dict[str, Any] = {}
 
     def run() -> None:
         cases = cases_of(path, kind, count)
         times = np.linspace(0.0, cases[0].inlet.period, INSTANTS + 1)
-        outcomes = run_batch(cases, times, numbers, threads)
-        failed.extend(str(outcome.error) for outcome in outcomes if outcome.error is not None)
+        found["step"] = step_of(cases, times, threads) if choose else cases[0].solver.time_step
+        found["kept"] = kept_of([at_step(case, found["step"]) for case in cases], times, threads)
 
     row = measured(run)
     per_case = {"cpu_s_per_case": row["cpu_s"] / count, "wall_s_per_case": row["wall_s"] / count}
-    return {"kind": kind, "threads": threads, "cases": count, "failed": len(failed), **row, **per_case}
+    about = {"kind": kind, "threads": threads, "cases": count, "time_step_s": found["step"]}
+    failed = int(np.isnan(found["kept"]).any(axis=1).sum())
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    return {**about, "failed": failed, **row, **per_case, "peak_memory_mb": peak, "kept": found["kept"]}
 
 
 def measure(count: int) -> dict[str, Any]:
@@ -127,7 +153,11 @@ def measure(count: int) -> dict[str, Any]:
         single = [measured(lambda: run_case(case, times))["cpu_s"] for _ in range(min(SINGLE_RUNS, count))]
         command = command_cpu_s(path, folder, min(COMMANDS, count))
         batches = [batch_row(path, kind, few, threads) for kind in KINDS for threads in (1, 2)]
-        batches.append(batch_row(path, "anywhere", count, 2))
+        batches += [batch_row(path, "anywhere", count, 2, choose) for choose in (False, True)]
+    own, other = (row["kept"] for row in batches[-2:])
+    batches[-1]["largest_deviation"] = float(np.max(np.abs(other / own - 1.0)))
+    for row in batches:
+        del row["kept"]
     in_process = statistics.median(single)
     for row in batches:
         row["share_of_run_case"] = row["cpu_s_per_case"] / in_process
@@ -153,10 +183,12 @@ def main() -> int:
     print(f"python -m solver: {found['command_median_cpu_s']:.2f} s")
     for row in found["batches"]:
         print(
-            f"{row['cases']} {row['kind']} on {row['threads']} threads: {row['cpu_s_per_case']:.3f} s a case "
+            f"{row['cases']} {row['kind']} on {row['threads']} threads, {1e3 * row['time_step_s']:.3g} ms: "
+            f"{row['cpu_s_per_case']:.3f} s a case "
             f"({row['share_of_run_case']:.0%} of a run, {row['share_of_command']:.0%} of the command), "
             f"{row['wall_s']:.1f} s in all by the clock, {row['failed']} failed"
         )
+    print(f"largest deviation from the case's own step: {found['batches'][-1]['largest_deviation']:.1e}")
     return 0
 
 

@@ -11,12 +11,17 @@ import hashlib
 import json
 import os
 import platform
+import resource
 import tempfile
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
+import psutil
 
 from validation.sweep.chunk import Plan, Record
 from validation.sweep.cluster import PROCESSES, connected
@@ -35,6 +40,7 @@ parameters:
   calcification.youngs_modulus: {{start: 1 MPa, stop: 20 MPa, count: {count}}}
 """
 TASK_S, TASKS = 0.1, 200
+LOOK_EVERY = 0.2  # s
 BLOCK = bytes(1_000_000)
 
 
@@ -62,16 +68,49 @@ def _ticks() -> int:
     return user + nice + system + sum(interrupts)
 
 
-def sweep_of(count: int, workers: int, folder: Path) -> dict[str, float]:
-    """Sweep the ready local case (120 x 48, one cycle in steps of 1 ms), start of the cluster included."""
+def sweep_of(count: int, workers: int, folder: Path) -> dict[str, Any]:
+    """Sweep the ready local case (120 x 48, one cycle, its step chosen), start of the cluster included."""
     path = folder / "study.yaml"
     path.write_text(STUDY.format(base=ROOT / "cases/calcification.yaml", count=count), encoding="utf-8")
     out = folder / f"{count}-{workers}"
-    found = timed(lambda: run_sweep(load_study(path), Where(out, PROCESSES, workers), print))
+    with memory_of_workers() as peaks:
+        found = timed(lambda: run_sweep(load_study(path), Where(out, PROCESSES, workers), print))
     records = pd.read_parquet(out / "samples")
     if len(records) != count or records["status"].ne("ok").any():
         raise SystemExit(f"{out}: not all of {count} samples are there")
-    return found | {"cases": count, "workers": workers, "samples_cpu_s": round(records["seconds"].sum(), 2)}
+    own = round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+    step = json.loads((out / "study.json").read_text(encoding="utf-8"))["time_steps"]["local"]
+    return found | {
+        "cases": count,
+        "workers": workers,
+        "samples_cpu_s": round(records["seconds"].sum(), 2),
+        "time_step": step,
+        "peak_memory_mb": {"client": own, "workers": sorted(map(round, peaks.values()))[-workers:]},
+    }
+
+
+@contextmanager
+def memory_of_workers() -> Iterator[dict[int, float]]:
+    """Watch the processes that this one starts: the largest resident memory of each, MB, by number."""
+    peaks: dict[int, float] = {}
+    done = threading.Event()
+
+    def watch() -> None:
+        while not done.wait(LOOK_EVERY):
+            for process in psutil.Process().children(recursive=True):
+                try:
+                    used = process.memory_info().rss / 2**20
+                except psutil.NoSuchProcess:
+                    continue
+                peaks[process.pid] = max(used, peaks.get(process.pid, 0.0))
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    try:
+        yield peaks
+    finally:
+        done.set()
+        watcher.join()
 
 
 def rest(samples: list[Sample], _plan: Plan) -> list[Record]:

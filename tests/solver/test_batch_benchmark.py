@@ -33,7 +33,11 @@ def test_batches_are_measured(script, tmp_path, monkeypatch, capsys):
     assert script.main() == 0
     rows = json.loads(output.read_text())["batches"]
     assert [row["kind"] for row in rows] == [
-        *("anywhere", "anywhere", "symmetric", "symmetric", "rings", "rings", "anywhere")
+        *("anywhere", "anywhere", "symmetric", "symmetric", "rings", "rings", "anywhere", "anywhere")
     ]
     assert all((row["cases"], row["failed"]) == (1, 0) for row in rows)
+    *own, last = rows
+    assert all(row["time_step_s"] == 1e-3 for row in own)
+    assert last["time_step_s"] > 1e-3
+    assert 0 < last["largest_deviation"] < 1e-3
     assert "of the command" in capsys.readouterr().out
