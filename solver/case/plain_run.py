@@ -66,7 +66,8 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
         if axis is not None and state.axis_velocity is not None:
             axis[n] = 0.5 * (state.axis_velocity[1:] + state.axis_velocity[:-1])
         reached()
-    through = 0.5 * (flow[:, 1:] + flow[:, :-1])
+    through = flow[:, 1:] + flow[:, :-1]
+    through *= 0.5
     exponent = _exponents(computed, area, through)
     require_exponents(times, exponent)
     if computed.two_modes is not None and computed.two_modes.closure == "mean":

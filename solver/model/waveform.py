@@ -4,6 +4,7 @@ Each is a callable of time (s, array_like) that returns SI values and has a ``pe
 """
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -14,6 +15,15 @@ from cases.arrays import Floats
 from solver.errors import ModelError
 
 CLOSURE = 1e-9  # share of the largest value by which a cycle's ends may differ
+
+
+@lru_cache(maxsize=64)
+def _through(times: bytes, values: bytes, spline: bool) -> PchipInterpolator | CubicSpline:
+    """Curve through points, kept: many cases of a sweep have one waveform."""
+    x, y = np.frombuffer(times), np.frombuffer(values)
+    if not spline:
+        return PchipInterpolator(x, y)
+    return CubicSpline(x, np.append(y[:-1], y[0]), bc_type="periodic")
 
 
 class Signal(Protocol):
@@ -58,9 +68,8 @@ class Waveform:
             raise ModelError("a waveform needs finite values")
         if abs(values[-1] - values[0]) > CLOSURE * np.max(np.abs(values)):
             raise ModelError(f"a waveform must close: first value {values[0]:g}, last value {values[-1]:g}")
-        closed = np.append(values[:-1], values[0])
-        smooth = CubicSpline(times, closed, bc_type="periodic") if self.spline else None
-        object.__setattr__(self, "_interpolant", smooth or PchipInterpolator(times, values))
+        curve = _through(times.tobytes(), values.tobytes(), self.spline)
+        object.__setattr__(self, "_interpolant", curve)
 
     @property
     def period(self) -> float:

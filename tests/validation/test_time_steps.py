@@ -261,6 +261,27 @@ def test_what_fails_with_the_step_is_run_with_the_cases_own(tmp_path):
 
 
 @pytest.mark.slow
+def test_a_step_at_which_a_sample_fails_is_not_that_of_a_sweep(tmp_path):
+    """Runs stop above a Courant number: 10 and 5 ms are too long, though all errors are below 10 %."""
+    limits = {"solver": {"time_step": "1.25 ms", "limits": {"courant_number": 45}}}
+    keys = {"parameters": {MODULUS: ["10 MPa"]}, "overrides": limits}
+    study = small_study(tmp_path, error_tolerance=0.1, **keys)
+    (sample,) = samples_of_study(study).block([0])
+    plan = Plan((MODULUS,), study.outputs, {"local": Standard("none", "local")})
+
+    def status(step):
+        return run_chunk([replace(sample, case=at_step(sample.case, step))], plan)[0]["status"]
+
+    period = study.cases["local"].inlet.period
+    longest = next(k for k in range(1, 9) if status(period / 100 / k) == "ok")
+    assert longest > 1
+    swept(study, tmp_path / "out")
+    step = account(tmp_path / "out")["time_steps"]["local"]
+    assert status(step["time_step_s"]) == "ok"
+    assert step["error"] < 0.1
+
+
+@pytest.mark.slow
 def test_a_calibration_tells_its_step(tmp_path, capsys):
     path = calibration_file(tmp_path)
     text = path.read_text(encoding="utf-8")

@@ -104,8 +104,7 @@ def _calcified_radius_change(case: Case, last: xr.Dataset) -> float:
 
 
 def _flow_amplitude(_case: Case, last: xr.Dataset) -> float:
-    middle = last["section_flow_rate"].isel(x=last.sizes["x"] // 2)
-    return float(middle.max() - middle.min())
+    return float(np.ptp(last["section_flow_rate"].isel(x=last.sizes["x"] // 2).to_numpy()))
 
 
 def _cycle_change(_case: Case, last: xr.Dataset) -> float:

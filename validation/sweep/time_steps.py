@@ -77,12 +77,12 @@ def _some(samples: Samples, variant: str) -> list[Sample]:
 
 
 def _scales(values: Floats, outputs: tuple[Output, ...]) -> Floats:
-    """Largest size of each output, at least a hundredth of that of its field; inf for the fields' own."""
+    """Largest size of each output, at least a hundredth of that of its field; endless for the fields' own."""
     largest = np.nan_to_num(np.abs(values), nan=0.0).max(axis=0)
     by_name = dict(zip((output.name for output in outputs), largest, strict=True))
     sizes = {unit: by_name[size.name] for unit, (size, _) in SIZES.items()} | {"1": 1.0}
     least = [SMALL * sizes.get(output.unit, 0.0) for output in outputs]
-    least[-len(SIZES) :] = [np.inf] * len(SIZES)
+    least[-len(SIZES) :] = [np.finfo(float).max] * len(SIZES)
     return np.asarray(np.maximum(np.maximum(largest, least), np.finfo(float).tiny))
 
 
