@@ -10,13 +10,13 @@ def _linear(
     pressure: Floats, compliance: Floats, radius: float, reference: float, area: Floats, slope: Floats
 ) -> bool:
     """R = R₀ + (P − P₀) dR/dP, A = R², dA/dP = 2R dR/dP; whether dA/dP is positive everywhere."""
+    P, per_load, A, dA_dP = pressure.flat, compliance.flat, area.flat, slope.flat
     count = 0
-    for i in range(pressure.shape[0]):
-        for j in range(pressure.shape[1]):
-            deformed = radius + (pressure[i, j] - reference) * compliance[i, j]
-            area[i, j] = deformed * deformed
-            slope[i, j] = 2.0 * deformed * compliance[i, j]
-            count += slope[i, j] > 0.0
+    for k in range(pressure.size):
+        deformed = radius + (P[k] - reference) * per_load[k]
+        A[k] = deformed * deformed
+        dA_dP[k] = 2.0 * deformed * per_load[k]
+        count += bool(dA_dP[k] > 0.0)
     return count == slope.size
 
 

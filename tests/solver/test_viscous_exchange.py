@@ -99,12 +99,17 @@ def test_a_section_at_rest_feels_poiseuille_friction():
     np.testing.assert_allclose(source, -8 * KINEMATIC_VISCOSITY / area)
 
 
-def test_a_fixed_exponent_gives_its_own_friction():
-    area = MEAN_AREA * np.array([1.0, 1.1, 0.9, 1.0])
-    alpha, source = np.empty((1, 4)), np.empty((1, 4))
-    fixed_sources(with_ghosts(area), 9.0, KINEMATIC_VISCOSITY, alpha, source)
+@pytest.mark.parametrize("rows", [1, 4])
+@pytest.mark.parametrize("kind", [FLOW_INLET, PRESSURE_INLET])
+def test_a_fixed_exponent_gives_its_own_friction(rows, kind):
+    """At the areas that faces have; those of the ends follow from the inlet's kind."""
+    cells = MEAN_AREA * (1 + 0.1 * np.sin(np.arange(5 * rows))).reshape(5, rows)
+    ends = MEAN_AREA * (1 + 0.1 * np.cos(np.arange(2 * rows))).reshape(2, rows)
+    area, alpha, source = np.empty((6, rows + 2)), np.empty((6, rows)), np.empty((6, rows))
+    face_areas(cells, ends, kind, False, area)
+    fixed_sources(cells, ends, kind, 9.0, KINEMATIC_VISCOSITY, alpha, source)
     np.testing.assert_allclose(alpha, 11 / 10)
-    np.testing.assert_allclose(source[0], -22 * KINEMATIC_VISCOSITY / area)
+    np.testing.assert_allclose(source, -22 * KINEMATIC_VISCOSITY / area[:, 1:-1])
 
 
 @pytest.mark.parametrize("row", [0, 3])

@@ -7,10 +7,11 @@ from solver.schemes.vectorisation import kernel
 @kernel
 def momentum_flux(flow: Floats, area: Floats, alpha: Floats, flux: Floats) -> None:
     """αQ²/A at cell centres (n_x, n_phi) from Q and α of the two faces (n_x + 1, n_phi)."""
-    for i in range(flux.shape[0]):
-        for j in range(flux.shape[1]):
-            both = flow[i, j] + flow[i + 1, j]
-            flux[i, j] = 0.125 * (alpha[i, j] + alpha[i + 1, j]) * both * both / area[i, j]
+    n, q, a = flux.shape[1], flow.flat, alpha.flat
+    section, result = area.flat, flux.flat
+    for k in range(flux.size):
+        both = q[k] + q[k + n]
+        result[k] = 0.125 * (a[k] + a[k + n]) * both * both / section[k]
 
 
 @kernel
@@ -41,11 +42,13 @@ def predict(
     explicit_flow, conductance : ndarray (n_x + 1, n_phi)
         Results: G (m³/s) and κ (m³/(s Pa)).
     """
-    for f in range(1, area.shape[0]):
-        for j in range(area.shape[1]):
-            drive = 0.5 * pull * (area[f - 1, j] + area[f, j])
-            inverse = 1.0 / (1.0 - theta * damping[f, j])
-            rest = flow[f, j] * (1.0 + (1.0 - theta) * damping[f, j])
-            rest -= carry * (flux[f, j] - flux[f - 1, j])
-            explicit_flow[f, j] = (rest - drive * (pressure[f, j] - pressure[f - 1, j])) * inverse
-            conductance[f, j] = theta * drive * inverse
+    n = area.shape[1]
+    A, P, F = area.flat, pressure.flat, flux.flat
+    Q, S, G, kappa = flow.flat, damping.flat, explicit_flow.flat, conductance.flat
+    for k in range(n, area.size):
+        drive = 0.5 * pull * (A[k - n] + A[k])
+        inverse = 1.0 / (1.0 - theta * S[k])
+        rest = Q[k] * (1.0 + (1.0 - theta) * S[k])
+        rest -= carry * (F[k] - F[k - n])
+        G[k] = (rest - drive * (P[k] - P[k - n])) * inverse
+        kappa[k] = theta * drive * inverse

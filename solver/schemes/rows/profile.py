@@ -7,7 +7,7 @@ The kernels index whole arrays, ``values[f, j]``: making a view of each row cost
 """
 
 from cases.arrays import Floats
-from solver.schemes.layout import NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY
+from solver.schemes.layout import NO_ADMISSIBLE_PROFILE, OK, PRESSURE_INLET, REST_VELOCITY
 from solver.schemes.vectorisation import kernel, summing_kernel
 
 POISEUILLE = 2.0  # γ of a section at rest: the limit of slow equal rows
@@ -104,10 +104,31 @@ def _fixed_source(f: int, area: Floats, exponent: float, scale: float, alpha: Fl
 
 
 @kernel
-def fixed_sources(area: Floats, exponent: float, scale: float, alpha: Floats, source: Floats) -> None:
-    """α and Δt S of all faces for a given γ: the 1D model; arguments as :func:`closure_sources`."""
-    for f in range(source.shape[0]):
-        _fixed_source(f, area, exponent, scale, alpha, source)
+def fixed_sources(
+    mean_area: Floats,
+    end_area: Floats,
+    inlet_kind: int,
+    exponent: float,
+    scale: float,
+    alpha: Floats,
+    source: Floats,
+) -> None:
+    """α and Δt S of all faces for a given γ: the 1D model.
+
+    Areas as those of :func:`solver.schemes.rows.ends.face_areas`, the others as :func:`closure_sources`.
+    """
+    (n_x, n), A, S, a = mean_area.shape, mean_area.flat, source.flat, alpha.flat
+    friction = -2.0 * (exponent + 2.0) * scale
+    for k in range(alpha.size):
+        a[k] = (exponent + 2.0) / (exponent + 1.0)
+    for k in range(n, mean_area.size):
+        S[k] = friction / (0.5 * (A[k - n] + A[k]))
+    for j in range(n):
+        inlet = 1.5 * mean_area[0, j] - 0.5 * mean_area[1, j]
+        if inlet_kind == PRESSURE_INLET:
+            inlet = end_area[0, j]
+        source[0, j] = friction / inlet
+        source[n_x, j] = friction / end_area[1, j]
 
 
 @kernel

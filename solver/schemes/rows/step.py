@@ -52,7 +52,7 @@ from solver.schemes.rows.mass import (
     substitute,
 )
 from solver.schemes.rows.momentum import momentum_flux, predict
-from solver.schemes.rows.profile import closure_sources, fixed_sources
+from solver.schemes.rows.profile import POISEUILLE, closure_sources, fixed_sources
 from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel
 from solver.schemes.walls import wall_area
 
@@ -60,9 +60,9 @@ from solver.schemes.walls import wall_area
 @kernel
 def _mean(theta: float, old: Floats, new: Floats, mean: Floats) -> None:
     """θ-weighted mean of the old state and the iterate."""
-    for i in range(mean.shape[0]):
-        for j in range(mean.shape[1]):
-            mean[i, j] = (1.0 - theta) * old[i, j] + theta * new[i, j]
+    before, after, result = old.flat, new.flat, mean.flat
+    for k in range(mean.size):
+        result[k] = (1.0 - theta) * before[k] + theta * after[k]
 
 
 @part_of_kernel
@@ -80,11 +80,12 @@ def means(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> tuple[in
 @part_of_kernel
 def _coefficients(p: Parameters, s: Stepping, ws: Workspace) -> tuple[int, int, int]:
     """α and Δt S on every face at the means; the failure (status, i, j) if there is one."""
-    face_areas(ws.mean_area, ws.end_area, p.inlet_kind, p.mirrored, ws.face_area)
     scale = s.time_step * p.kinematic_viscosity
-    if p.fixed_exponent > 0.0:
-        fixed_sources(ws.face_area, p.fixed_exponent, scale, ws.alpha, ws.damping)
+    if p.fixed_exponent > 0.0 or ws.mean_area.shape[1] == 1:
+        exponent = p.fixed_exponent if p.fixed_exponent > 0.0 else POISEUILLE  # of a row that is its own mean
+        fixed_sources(ws.mean_area, ws.end_area, p.inlet_kind, exponent, scale, ws.alpha, ws.damping)
         return OK, 0, 0
+    face_areas(ws.mean_area, ws.end_area, p.inlet_kind, p.mirrored, ws.face_area)
     status, f, j = closure_sources(
         ws.mean_flow,
         ws.face_area,
@@ -168,19 +169,19 @@ def _sweep(
 @kernel
 def copy(values: Floats, target: Floats) -> None:
     """Copy a 2-D array."""
-    for i in range(values.shape[0]):
-        for j in range(values.shape[1]):
-            target[i, j] = values[i, j]
+    source, result = values.flat, target.flat
+    for k in range(target.size):
+        result[k] = source[k]
 
 
 @kernel
 def take(iterate: Floats, state: Floats) -> None:
     """Make the iterate the state, and its linear extrapolation in time the next step's first iterate."""
-    for i in range(state.shape[0]):
-        for j in range(state.shape[1]):
-            new = iterate[i, j]
-            iterate[i, j] = 2.0 * new - state[i, j]
-            state[i, j] = new
+    found, kept = iterate.flat, state.flat
+    for k in range(state.size):
+        new = found[k]
+        found[k] = 2.0 * new - kept[k]
+        kept[k] = new
 
 
 @part_of_kernel
