@@ -1,9 +1,10 @@
 """Run a checked case with whichever scheme it names."""
 
-from collections.abc import Iterator
-from typing import Any
+from __future__ import annotations
 
-import xarray as xr
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
 from numpy.typing import ArrayLike
 
 from cases.arrays import Floats
@@ -16,6 +17,9 @@ from solver.marching.semi_implicit import Progress, checked_times
 from solver.marching.walk import Kept, Stop, history_of
 from solver.model.parameters import Model
 from solver.runs.result import cell_dataset
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SCHEMES = {"godunov": walk_godunov, "semi_implicit": walk_semi_implicit}
 

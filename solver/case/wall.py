@@ -13,9 +13,7 @@ from cases.sections.solver import SemiImplicitSolver
 from cases.sections.wall import MembraneWall, SolidWall, row_wall
 from solver.case.stiffness import WallOnGrid, moduli_on_grid, wall_on_grid
 from solver.geometry.grid import Grid
-from solver.wall import membrane_tables, solid_tables
 from solver.wall.sections import SectionWall, linear_section_wall, row_table, tabulated_section_wall
-from solver.wall.solid import Solid
 from solver.wall.table import WallTable
 
 NONLINEAR_GROWTH = 0.25  # R/R₀ − 1 of the softest row of a nonlinear base at the highest pressure
@@ -70,32 +68,36 @@ def walls_of(case: Case, grid: Grid) -> Walls:
 def whole_wall_of(case: Case, grid: Grid, own: WallOnGrid) -> WholeWall | None:
     """Return the membrane or solid of a case whose rows by themselves are ``own``; None for another wall."""
     if isinstance(case.wall, MembraneWall):
-        membrane = _membrane(case, case.wall, grid, own)
-        return WholeWall(
-            partial(membrane_tables.section_wall, membrane), partial(membrane_tables.radii, membrane)
-        )
+        return _membrane(case, case.wall, grid, own)
     if isinstance(case.wall, SolidWall):
-        solid = _solid(case, case.wall, grid, own)
-        return WholeWall(partial(solid_tables.section_wall, solid), partial(solid_tables.radii, solid))
+        return _solid(case, case.wall, grid, own)
     return None
 
 
 def _highest_load(case: Case, own: WallOnGrid) -> float:
     """Largest load to tabulate by the growth of the softest row at small strain, Pa."""
+    from solver.wall import membrane_tables
+
     return membrane_tables.HIGHEST_GROWTH * float(np.min(own.stiffness)) / case.geometry.radius
 
 
-def _solid(case: Case, wall: SolidWall, grid: Grid, own: WallOnGrid) -> solid_tables.SolidWall:
+def _solid(case: Case, wall: SolidWall, grid: Grid, own: WallOnGrid) -> WholeWall:
+    from solver.wall import solid_tables
+    from solver.wall.solid import Solid
+
     around, layers, along = wall.elements
     (moduli,) = moduli_on_grid(case, Grid(grid.length, along, around))
     geometry = case.geometry
     solid = Solid(
         geometry.length, geometry.radius, geometry.wall_thickness, moduli, wall.poisson_ratio, layers
     )
-    return solid_tables.SolidWall(grid, solid, own.reference_pressure, _highest_load(case, own))
+    whole = solid_tables.SolidWall(grid, solid, own.reference_pressure, _highest_load(case, own))
+    return WholeWall(partial(solid_tables.section_wall, whole), partial(solid_tables.radii, whole))
 
 
-def _membrane(case: Case, wall: MembraneWall, grid: Grid, own: WallOnGrid) -> membrane_tables.MembraneWall:
+def _membrane(case: Case, wall: MembraneWall, grid: Grid, own: WallOnGrid) -> WholeWall:
+    from solver.wall import membrane_tables
+
     radius, thickness = case.geometry.radius, case.geometry.wall_thickness
     highest = _highest_load(case, own)
     if own.table is not None:
@@ -107,7 +109,7 @@ def _membrane(case: Case, wall: MembraneWall, grid: Grid, own: WallOnGrid) -> me
         pressure = np.full(own.stiffness.shape, own.reference_pressure + load)
         return np.asarray(load * radius**2 / (np.sqrt(own.table.area(pressure)) - radius))
 
-    return membrane_tables.MembraneWall(
+    whole = membrane_tables.MembraneWall(
         grid=grid,
         radius=radius,
         reference_pressure=own.reference_pressure,
@@ -116,6 +118,7 @@ def _membrane(case: Case, wall: MembraneWall, grid: Grid, own: WallOnGrid) -> me
         supports=wall.supports,
         highest_load=highest,
     )
+    return WholeWall(partial(membrane_tables.section_wall, whole), partial(membrane_tables.radii, whole))
 
 
 def _load_of_growth(table: WallTable, radius: float, reference_pressure: float) -> float:

@@ -9,21 +9,23 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline, PchipInterpolator
 
 from cases.arrays import Floats
 from solver.errors import ModelError
+from solver.model.monotone_cubic import evaluated, monotone_cubic
 
 CLOSURE = 1e-9  # share of the largest value by which a cycle's ends may differ
 
 
 @lru_cache(maxsize=64)
-def _through(times: bytes, values: bytes, spline: bool) -> PchipInterpolator | CubicSpline:
-    """Curve through points, kept: many cases of a sweep have one waveform."""
+def _cubics_through(times: bytes, values: bytes, spline: bool) -> Floats:
+    """Coefficients as those of :func:`monotone_cubic`, kept: many cases of a sweep have one waveform."""
     x, y = np.frombuffer(times), np.frombuffer(values)
     if not spline:
-        return PchipInterpolator(x, y)
-    return CubicSpline(x, np.append(y[:-1], y[0]), bc_type="periodic")
+        return monotone_cubic(x, y)
+    from scipy.interpolate import CubicSpline
+
+    return np.asarray(CubicSpline(x, np.append(y[:-1], y[0]), bc_type="periodic").c)
 
 
 class Signal(Protocol):
@@ -56,7 +58,7 @@ class Waveform:
     times: Floats
     values: Floats
     spline: bool = False
-    _interpolant: PchipInterpolator | CubicSpline = field(init=False, repr=False, compare=False)
+    _cubics: Floats = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         times, values = np.asarray(self.times, dtype=float), np.asarray(self.values, dtype=float)
@@ -68,8 +70,8 @@ class Waveform:
             raise ModelError("a waveform needs finite values")
         if abs(values[-1] - values[0]) > CLOSURE * np.max(np.abs(values)):
             raise ModelError(f"a waveform must close: first value {values[0]:g}, last value {values[-1]:g}")
-        curve = _through(times.tobytes(), values.tobytes(), self.spline)
-        object.__setattr__(self, "_interpolant", curve)
+        cubics = _cubics_through(times.tobytes(), values.tobytes(), self.spline)
+        object.__setattr__(self, "_cubics", cubics)
 
     @property
     def period(self) -> float:
@@ -78,7 +80,7 @@ class Waveform:
 
     def __call__(self, time: ArrayLike) -> Floats:
         """Value at ``time`` (s), SI, of the shape of ``time``."""
-        return np.asarray(self._interpolant(np.mod(time, self.period)))
+        return evaluated(self._cubics, np.asarray(self.times, dtype=float), np.mod(time, self.period))
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,9 @@
-"""Results on disk: NetCDF-4, written whole or not at all."""
-
-from __future__ import annotations
+"""Results on disk: where they may be written."""
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from cases.shell.whole import write_whole, writing
 from solver.errors import SolverError
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def check_folder(path: Path) -> None:
@@ -33,29 +26,3 @@ def check_folder(path: Path) -> None:
 def pieces_folder(result: Path) -> Path:
     """Folder of the pieces of a result file."""
     return result.with_name(result.name + ".pieces")
-
-
-def write_netcdf(dataset: xr.Dataset, path: Path, unlimited: tuple[str, ...] = ()) -> None:
-    """Write ``dataset`` to ``path``, replacing an older file only by a complete new one.
-
-    Nothing is compressed: that would halve the file and take longer than the run.
-
-    Raises
-    ------
-    SolverError
-        If the file cannot be written.
-    """
-    import netCDF4
-    from xarray.backends import NetCDF4DataStore
-
-    try:
-        with (
-            writing(path, SolverError),
-            write_whole(path) as partial,
-            netCDF4.Dataset(partial, "w") as stored,
-        ):
-            # what to_netcdf writes, without its question for Dask's schedulers: their import takes a second
-            store = NetCDF4DataStore(stored)  # type: ignore[no-untyped-call]
-            dataset.dump_to_store(store, unlimited_dims=unlimited)
-    except RuntimeError as error:  # so netCDF reports a full disk
-        raise SolverError(f"{path}: cannot be written: {error}") from error

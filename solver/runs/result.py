@@ -1,36 +1,47 @@
 """A finished run as an xarray dataset with CF-style names and units."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Collection
 from functools import partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import xarray as xr
 
 from cases.arrays import Floats
 from cases.fields import FIELDS
 from solver.model.parameters import Model
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 CONVENTIONS = "CF-1.11"
+AXES = {  # unit and words
+    "time": {"units": "s", "long_name": "time"},
+    "x": {"units": "m", "long_name": "distance from the inlet"},
+    "phi": {"units": "rad", "long_name": "azimuthal angle"},
+}
 
 
 def coordinates(time: Floats, x: Floats, phi: Floats) -> xr.Dataset:
     """Dataset that holds only the coordinates time (s), x (m) and phi (rad)."""
-    return xr.Dataset(
-        coords={
-            "time": ("time", time, {"units": "s", "long_name": "time"}),
-            "x": ("x", x, {"units": "m", "long_name": "distance from the inlet"}),
-            "phi": ("phi", phi, {"units": "rad", "long_name": "azimuthal angle"}),
-        }
-    )
+    import xarray as xr
+
+    values = {"time": time, "x": x, "phi": phi}
+    return xr.Dataset(coords={name: (name, values[name], words) for name, words in AXES.items()})
+
+
+def words_of(name: str) -> dict[str, str]:
+    """Attributes of a field in a result: its unit, and what the table of fields calls it."""
+    field = FIELDS[name]
+    return {"units": field.unit, "long_name": field.label, "symbol": field.symbol}
 
 
 def described(name: str, values: Floats) -> xr.Variable:
     """Values as a variable with the dimensions, unit and words of the table of fields."""
-    field = FIELDS[name]
-    return xr.Variable(
-        field.dims, values, {"units": field.unit, "long_name": field.label, "symbol": field.symbol}
-    )
+    import xarray as xr
+
+    return xr.Variable(FIELDS[name].dims, values, words_of(name))
 
 
 class CellHistory(NamedTuple):
@@ -49,12 +60,12 @@ class CellHistory(NamedTuple):
     axis_velocity: Floats | None = None
 
 
-def cell_dataset(model: Model, cells: CellHistory, names: Collection[str] | None = None) -> xr.Dataset:
-    """Fields of a run at cell centres; only those of ``names``, where such are stated.
+def cell_fields(model: Model, cells: CellHistory, names: Collection[str] | None = None) -> dict[str, Floats]:
+    """Fields of a run at cell centres, by name; only those of ``names``, where such are stated.
 
     Returns
     -------
-    xarray.Dataset
+    dict of ndarray
         pressure, radius, mean_velocity, profile_exponent, sector_flow_rate on (time, x, phi), and
         azimuthal_flux where rows exchange blood; section_flow_rate, section_pressure on (time, x); with two
         modes axis_velocity on (time, x) and profile_bend on (time, x, phi) stand for profile_exponent;
@@ -71,9 +82,14 @@ def cell_dataset(model: Model, cells: CellHistory, names: Collection[str] | None
         **{name: partial(np.asarray, values) for name, values in cells.diagnostics.items()},
         **_of_profiles(model, cells),
     }
+    return {name: make() for name, make in fields.items() if names is None or name in names}
+
+
+def cell_dataset(model: Model, cells: CellHistory, names: Collection[str] | None = None) -> xr.Dataset:
+    """Fields of :func:`cell_fields`, on time (s), x (m) and phi (rad)."""
+    fields = cell_fields(model, cells, names)
     dataset = coordinates(cells.times, model.grid.x, model.grid.phi)
-    wanted = {name: make for name, make in fields.items() if names is None or name in names}
-    dataset = dataset.assign({name: described(name, make()) for name, make in wanted.items()})
+    dataset = dataset.assign({name: described(name, values) for name, values in fields.items()})
     return dataset.assign_attrs(Conventions=CONVENTIONS)
 
 

@@ -28,8 +28,9 @@ from solver.marching.semi_implicit import Progress
 from solver.marching.walk import Kept, Stop, history_of
 from solver.model.diagnostics import Diagnostics
 from solver.model.parameters import Model
-from solver.runs.files import pieces_folder, write_netcdf
-from solver.runs.result import CellHistory, cell_dataset
+from solver.runs.files import pieces_folder
+from solver.runs.netcdf import append_netcdf, write_netcdf
+from solver.runs.result import CellHistory, cell_fields
 
 PIECE = 25  # states
 
@@ -196,14 +197,13 @@ def _join(
             longest = max(longest, piece.longest_step)
             for name, values in piece.cells.diagnostics.items():
                 largest[name] = float(np.fmax.reduce(np.abs(values), initial=largest[name]))
-            dataset = cell_dataset(model, piece.cells).assign_attrs(attributes)
+            time, fields = piece.cells.times, cell_fields(model, piece.cells)
             if path == paths[0]:
-                write_netcdf(dataset, partial, unlimited=("time",))
+                axes = {"time": time, "x": model.grid.x, "phi": model.grid.phi}
+                write_netcdf(partial, axes, fields, attributes)
             else:
                 with netCDF4.Dataset(partial, "a") as stored:
-                    count = stored.dimensions["time"].size
-                    for name in (str(n) for n in dataset.variables if "time" in dataset[n].dims):
-                        stored[name][count:] = dataset[name].to_numpy()
+                    append_netcdf(stored, time, fields)
         with netCDF4.Dataset(partial, "a") as stored:
             stored.setncatts(counts(case, steps, sweeps, longest))
             change = cycle_change(case, stored.variables)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from cases.arrays import Floats
 from solver.errors import ModelError
@@ -126,6 +125,8 @@ def wall_table(
 
 def hermite(curve: MasterCurve) -> Callable[[Floats], tuple[Floats, Floats]]:
     """Interpolant of a master curve: loads → (R, dR/dp)."""
+    from scipy.interpolate import CubicHermiteSpline
+
     spline = CubicHermiteSpline(curve.loads, curve.radii, curve.slopes)
     slope = spline.derivative()
     return lambda loads: (np.asarray(spline(loads)), np.asarray(slope(loads)))
