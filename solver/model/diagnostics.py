@@ -18,6 +18,7 @@ from solver.wall.sections import SectionWall
 
 GAUSS_POINTS = 6  # of ∫A dP for a tabulated wall
 HISTORY = 3  # earlier states that the energy balance interpolates the powers through
+MOMENTS = np.array([(-1.0) ** n / (n + 1) for n in range(HISTORY + 1)])  # of powers over the last interval
 
 
 @dataclass(frozen=True)
@@ -191,9 +192,10 @@ class Monitor:
 def last_interval_weights(times: Floats) -> Floats:
     """Weights of the mean over the last interval, by the polynomial through all ``times`` (increasing)."""
     places = (times - times[-1]) / (times[-1] - times[-2])
-    powers = np.arange(times.size)
-    moments = (-1.0) ** powers / (powers + 1)
-    return np.asarray(np.linalg.solve(np.vander(places, increasing=True).T, moments), dtype=float)
+    powers = np.ones((times.size, times.size))
+    for n in range(1, times.size):
+        np.multiply(powers[n - 1], places, out=powers[n])
+    return np.asarray(np.linalg.solve(powers, MOMENTS[: times.size]), dtype=float)
 
 
 def wall_state(model: Model, cells: Columns) -> tuple[Floats, float]:

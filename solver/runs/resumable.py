@@ -179,7 +179,10 @@ def _read(path: Path) -> Piece:
 
 def _widest_of(paths: list[Path]) -> Floats:
     """Section pressures at the instant of a run at which they vary most along the artery, Pa, (n_x,)."""
-    profiles = [widest(_read(path).cells.pressure) for path in paths]
+    profiles = []
+    for path in paths:
+        with np.load(path) as stored:
+            profiles.append(widest(stored["pressure"]))
     return max(profiles, key=lambda profile: float(np.ptp(profile)))
 
 
