@@ -79,6 +79,6 @@ def _viscous_terms(
     """Friction and exchange around, m³/s², (columns, n_phi)."""
     wide, across = (np.concatenate([part[:, -1:], part, part[:, :1]], axis=1) for part in (u, area))
     damping, excess = np.empty(u.shape), np.empty(u.shape)
-    around = np.empty((3, u.shape[1] + 2))
+    around = np.empty((4, u.shape[1] + 2))
     viscous_terms(kernel_modes(two_modes), wide, across, axis_velocity, nu, dphi, around, damping, excess)
     return np.asarray(damping * u * area + excess)

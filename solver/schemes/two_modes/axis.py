@@ -10,7 +10,7 @@ import numpy as np
 
 from cases.arrays import Floats
 from solver.schemes.layout import PRESSURE_INLET
-from solver.schemes.vectorisation import kernel
+from solver.schemes.vectorisation import kernel, summing_kernel
 
 LOWER, MIDDLE, UPPER = 0, 1, 2
 
@@ -31,6 +31,19 @@ def _beyond_upwind(axis: Floats, f: int, speed: float) -> float:
             return float(-0.5 * (axis[f] - 2.0 * axis[f + 1] + axis[f + 2]))
         return float(-0.25 * (axis[f - 1] - axis[f] - axis[f + 1] + axis[f + 2]))
     return 0.0
+
+
+@summing_kernel
+def _friction_sums(
+    f: int, theta: float, old_flow: Floats, new_flow: Floats, face_area: Floats
+) -> tuple[float, float]:
+    """Σ 1/A and Σ Q/A² of one face, Q θ-weighted."""
+    relax, pull = 0.0, 0.0
+    for j in range(new_flow.shape[1]):
+        inverse = 1.0 / face_area[f, j + 1]
+        relax += inverse
+        pull += ((1.0 - theta) * old_flow[f, j] + theta * new_flow[f, j]) * inverse * inverse
+    return relax, pull
 
 
 @kernel
@@ -70,11 +83,7 @@ def axis_momentum(
     last, n = old.size - 1, new_flow.shape[1]
     lower, middle, upper = matrix[LOWER], matrix[MIDDLE], matrix[UPPER]
     for f in range(last + 1):
-        relax, pull = 0.0, 0.0
-        for j in range(n):
-            inverse = 1.0 / face_area[f, j + 1]
-            relax += inverse
-            pull += ((1.0 - theta) * old_flow[f, j] + theta * new_flow[f, j]) * inverse * inverse
+        relax, pull = _friction_sums(f, theta, old_flow, new_flow, face_area)
         relax *= 12.0 * scale / n
         lower[f], upper[f], middle[f] = 0.0, 0.0, 1.0 + theta * relax
         right[f] = old[f] - drive[f] + 16.0 * scale * pull / n - (1.0 - theta) * relax * old[f]

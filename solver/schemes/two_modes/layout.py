@@ -66,7 +66,7 @@ class Workspace(NamedTuple):
     section_slope: Floats  # cells along x: θ ∂flux/∂Q of whole sections, which rows have no use for
     row_slope: Floats  # cells along x: θ ∂flux/∂Q of rows that deviate from their section
     row_damping: Floats  # faces: mean Δt S of rows that deviate from their section
-    around: Floats  # (3, n_phi + 2)
+    around: Floats  # (4, n_phi + 2)
     velocity: Floats  # (faces, n_phi + 2): u, with ghosts
 
 
@@ -74,5 +74,5 @@ def workspace(base: Any, n_x: int, n_phi: int) -> Workspace:
     """Allocate the scratch of a run beside that of its scheme."""
     faces = n_x + 1
     shapes: list[tuple[int, ...]] = [(faces,)] * 6
-    shapes += [(3, faces), (faces, n_phi), (n_x,), (n_x,), (faces,), (3, n_phi + 2), (faces, n_phi + 2)]
+    shapes += [(3, faces), (faces, n_phi), (n_x,), (n_x,), (faces,), (4, n_phi + 2), (faces, n_phi + 2)]
     return Workspace(base, base.exchanged, *(aligned(shape) for shape in shapes))

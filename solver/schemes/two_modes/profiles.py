@@ -6,6 +6,7 @@ from cases.arrays import Floats
 from solver.schemes.two_modes.layout import Modes
 from solver.schemes.vectorisation import inlined_kernel, summing_kernel
 
+SIXTH = 1.0 / 6.0  # times, since a division takes as long as all else of a row
 SQUARES = 2.0  # exponent of a base whose powers need no logarithm
 
 
@@ -82,14 +83,14 @@ def viscous_terms(
         D.
     scale : float
         Δt μ/ρ, m².
-    around : ndarray (3, n_phi + 2)
+    around : ndarray (4, n_phi + 2)
         Scratch.
     damping, excess : ndarray (n_x + 1, n_phi)
         Results, – and m³/s.
     """
     n, power = damping.shape[1], 0.5 * modes.exponent
-    second = 1.0 / (dphi * dphi)
-    base, first, third = around[0], around[1], around[2]
+    second, friction = 1.0 / (dphi * dphi), -32.0 * scale
+    base, first, third, of_one = around[0], around[1], around[2], around[3]
     for f in range(damping.shape[0]):
         d = axis[f]
         for j in range(n + 2):
@@ -98,26 +99,32 @@ def viscous_terms(
             base[j] = inverse
             first[j] = b * inverse
             third[j] = b * inverse * inverse * inverse
+            of_one[j] = face_area[f, j]
+        for j in range(n):
+            damping[f, j] = friction * base[j + 1]
         if modes.exponent != SQUARES:
             for j in range(n + 2):
                 base[j] = base[j] ** power
+                of_one[j] = 1.0 / base[j]
         for j in range(n):
             a = face_area[f, j + 1]
-            of_base = (base[j + 2] - 2.0 * base[j + 1] + base[j]) / base[j + 1]
+            of_base = (base[j + 2] - 2.0 * base[j + 1] + base[j]) * of_one[j + 1]
             of_first = first[j + 2] - 2.0 * first[j + 1] + first[j]
             of_third = third[j + 2] - 2.0 * third[j + 1] + third[j]
-            bend = 0.5 * a * of_first - a * a * a / 6.0 * of_third - d / modes.exponent * of_base
-            damping[f, j] = -32.0 * scale / a
+            bend = 0.5 * a * of_first - SIXTH * a * a * a * of_third - d / modes.exponent * of_base
             excess[f, j] = 2.0 * scale * (second * bend - modes.wall_axis * d)
 
 
 @summing_kernel
-def exchange_share(face_area: Floats, scale: float, dphi: float, f: int) -> float:
-    """Δt times half of the fastest rate at which exchange evens a section's rows out, –."""
-    total, n = 0.0, face_area.shape[1] - 2
+def exchange_share(damping: Floats, dphi: float, f: int) -> float:
+    """Δt times half of the fastest rate at which exchange evens a section's rows out, –.
+
+    (16/3)ν/Δφ² times the mean of 1/A, of which friction ``damping`` from :func:`viscous_terms` has −32ν.
+    """
+    total, n = 0.0, damping.shape[1]
     for j in range(n):
-        total += 1.0 / face_area[f, j + 1]
-    return float(16.0 / 3.0 * scale / (dphi * dphi) * total / n)
+        total += damping[f, j]
+    return float(-total / (6.0 * dphi * dphi * n))
 
 
 @summing_kernel

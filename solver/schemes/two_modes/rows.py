@@ -43,7 +43,7 @@ from solver.schemes.two_modes.profiles import (
     viscous_terms,
     weighted_axis,
 )
-from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel
+from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel, summing_kernel
 
 
 @kernel
@@ -56,12 +56,10 @@ def _velocities(flow: Floats, face_area: Floats, mirrored: bool, velocity: Float
 
 
 @kernel
-def _share_exchange(
-    face_area: Floats, flow: Floats, scale: float, dphi: float, damping: Floats, excess: Floats
-) -> None:
+def _share_exchange(flow: Floats, dphi: float, damping: Floats, excess: Floats) -> None:
     """Give Δt S a share of the exchange around, so that many rows do not call for short steps."""
     for f in range(flow.shape[0]):
-        share = exchange_share(face_area, scale, dphi, f)
+        share = exchange_share(damping, dphi, f)
         for j in range(flow.shape[1]):
             damping[f, j] -= share
             excess[f, j] += share * flow[f, j]
@@ -83,7 +81,7 @@ def _profiles(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None
     )
     viscous_terms(m, ws.velocity, w.face_area, ws.mean_axis, scale, b.dphi, ws.around, w.damping, ws.excess)
     if w.mean_flow.shape[1] > 1:
-        _share_exchange(w.face_area, w.mean_flow, scale, b.dphi, w.damping, ws.excess)
+        _share_exchange(w.mean_flow, b.dphi, w.damping, ws.excess)
 
 
 @kernel
@@ -188,6 +186,16 @@ def _sweep(
     return OK, 0, 0
 
 
+@summing_kernel
+def _sum_of_rises(f: int, theta: float, old: Floats, new: Floats) -> float:
+    """Sum over φ of the θ-weighted pressure's rise over an inner face."""
+    total = 0.0
+    for j in range(new.shape[1]):
+        rise = theta * (new[f, j] - new[f - 1, j])
+        total += rise + (1.0 - theta) * (old[f, j] - old[f - 1, j])
+    return total
+
+
 @kernel
 def _mean_rises(
     theta: float, scale: float, fields: Fields, pressure: Floats, end_pressure: Floats, drive: Floats
@@ -195,12 +203,10 @@ def _mean_rises(
     """``scale`` times the rise of the θ-weighted mean pressure over each face; half cells at the ends."""
     n_x, n = pressure.shape
     old = fields.base.pressure
-    for f in range(n_x + 1):
-        drive[f] = 0.0
+    for f in range(1, n_x):
+        drive[f] = _sum_of_rises(f, theta, old, pressure)
+    drive[0], drive[n_x] = 0.0, 0.0
     for j in range(n):
-        for f in range(1, n_x):
-            rise = theta * (pressure[f, j] - pressure[f - 1, j])
-            drive[f] += rise + (1.0 - theta) * (old[f, j] - old[f - 1, j])
         first = (1.0 - theta) * old[0, j] + theta * pressure[0, j]
         last = (1.0 - theta) * old[n_x - 1, j] + theta * pressure[n_x - 1, j]
         before, after = fields.base.inlet_pressure[j], fields.base.outlet_pressure[j]

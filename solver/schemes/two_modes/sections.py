@@ -116,7 +116,7 @@ def _profiles(p: Parameters, s: Stepping, ws: Workspace) -> None:
         for j in range(n):
             total += w.damping[f, j]
         w.mean_damping[f] = total / n
-        share = exchange_share(w.face_area, scale, p.base.dphi, f) if n > 1 else 0.0
+        share = exchange_share(w.damping, p.base.dphi, f) if n > 1 else 0.0
         ws.row_damping[f] = w.mean_damping[f] - share
 
 
