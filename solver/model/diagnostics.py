@@ -112,8 +112,10 @@ class Monitor:
     def __init__(
         self, model: Model, limits: Limits, resolved: float = np.inf, history: Floats | None = None
     ) -> None:
-        self.model, self.limits, self.resolved = model, limits, resolved
+        self.model, self.resolved = model, resolved
         self.history: Floats = np.empty((0, 6)) if history is None else history
+        stated = {part.name: getattr(limits, part.name) for part in fields(Limits)}
+        self._limited = {name: limit for name, limit in stated.items() if limit is not None}
 
     def look(self, time: float, state: Columns, longest_step: float, mass_defect: float) -> Diagnostics:
         """Evaluate a state.
@@ -167,10 +169,11 @@ class Monitor:
         past = self.history
         if past.size:
             now[5] = past[-1, 5]
-            past = past[past[:, 0] < now[0]]  # a run that goes on begins with the state it ended on
+            if past[-1, 0] >= now[0]:  # a run that goes on begins with the state it ended on
+                past = past[past[:, 0] < now[0]]
         if past.size and now[0] - past[-1, 0] > self.resolved * (1 + 1e-9):
             past = past[:0]
-        points = np.vstack([past, now])
+        points = np.concatenate([past, now[None]])
         self.history = points[-HISTORY:]
         if len(points) <= HISTORY:
             return float("nan")
@@ -182,11 +185,11 @@ class Monitor:
         return float((gained - supplied + dissipated + shaped) / largest)
 
     def _check(self, time: float, diagnostics: Diagnostics) -> None:
-        for part in fields(Limits):
-            limit, value = getattr(self.limits, part.name), getattr(diagnostics, part.name)
-            if limit is not None and abs(value) > limit:
-                detail = f"{part.name} = {value:.6g}; allowed: at most {limit:g}"
-                raise FAILURES[part.name](time, 0, 0, detail)
+        for name, limit in self._limited.items():
+            value = getattr(diagnostics, name)
+            if abs(value) > limit:
+                detail = f"{name} = {value:.6g}; allowed: at most {limit:g}"
+                raise FAILURES[name](time, 0, 0, detail)
 
 
 def last_interval_weights(times: Floats) -> Floats:

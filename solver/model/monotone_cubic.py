@@ -30,10 +30,11 @@ def monotone_cubic(x: Floats, y: Floats) -> Floats:
 def evaluated(coefficients: Floats, x: Floats, at: ArrayLike) -> Floats:
     """Values of the cubics from :func:`monotone_cubic` at places within ``x``, of the shape of ``at``."""
     at = np.asarray(at, dtype=float)
-    piece = np.clip(np.searchsorted(x, at, side="right") - 1, 0, x.size - 2)
-    cubic, square, slope, value = coefficients[:, piece]
-    s = at - x[piece]
-    return np.asarray(value + slope * s + square * (s * s) + cubic * (s * s * s))
+    piece = x[1:-1].searchsorted(at, side="right")
+    cubic, square, slope, value = (each.take(piece) for each in coefficients)
+    s = at - x.take(piece)
+    second = s * s
+    return np.asarray(value + slope * s + square * second + cubic * (second * s))
 
 
 def _slopes(width: Floats, rise: Floats) -> Floats:

@@ -23,6 +23,6 @@ def area_from_pressure(
         Where R would not be positive.
     """
     wall_radius = radius + (np.asarray(pressure) - reference_pressure) * radius**2 / stiffness
-    if not np.all(wall_radius > 0):
+    if not np.min(wall_radius) > 0:
         raise ModelError(f"the lumen collapses at P = {np.min(pressure):g} Pa")
     return np.asarray(wall_radius**2)

@@ -8,12 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from thesis_artery import artery
 
 import solver.command as command
 import solver.runs.resumable as running
 from cases.fields import FIELDS
 from solver.model.diagnostics import Diagnostics
 from solver.runs.files import pieces_folder
+from solver.runs.netcdf import write_netcdf
+from solver.runs.result import CellHistory, cell_dataset, cell_fields
 
 ROOT = Path(__file__).parents[2]
 VARIABLES = {
@@ -82,6 +85,39 @@ def test_the_module_runs_as_a_command(case_file):
     assert (done.returncode, done.stderr) == (0, "")
     assert output.stat().st_size > 0
     assert sorted(path.name for path in case_file.parent.iterdir()) == ["inlet.csv", "run.nc", "short.yaml"]
+
+
+UNUSED = {"dask", "matplotlib", "pandas", "pint", "scipy.interpolate", "scipy.sparse", "xarray"}
+LOADED = f"""
+import sys
+import solver.command
+
+status = solver.command.main()
+print(*sorted(set(sys.modules) & {UNUSED}), file=sys.stderr)
+sys.exit(status)
+"""
+
+
+def test_a_run_loads_no_library_that_it_does_not_use(case_file):
+    arguments = [str(case_file), "--variant", "patch", "--output", str(case_file.with_name("run.nc"))]
+    done = subprocess.run(  # noqa: S603
+        [sys.executable, "-c", LOADED, *arguments], cwd=ROOT, capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (0, "\n")
+
+
+def test_the_file_is_what_xarray_writes(tmp_path):
+    model = artery(8, 6)
+    shape, rng = (3, 8, 6), np.random.default_rng(5)
+    fields = [rng.uniform(1.0, 2.0, shape) for _ in range(4)]
+    watched = {name: rng.uniform(size=3) for name in Diagnostics._fields}
+    cells = CellHistory(np.array([0.0, 0.1, 0.3]), *fields, watched, azimuthal_flux=rng.uniform(size=shape))
+    stated = {"title": "Arterie, verkalkt: β", "share": 0.25}
+    dataset = cell_dataset(model, cells).assign_attrs(stated)
+    dataset.to_netcdf(tmp_path / "xarray.nc", engine="netcdf4", unlimited_dims=["time"])
+    axes = {"time": cells.times, "x": model.grid.x, "phi": model.grid.phi}
+    write_netcdf(tmp_path / "own.nc", axes, cell_fields(model, cells), stated)
+    assert (tmp_path / "own.nc").read_bytes() == (tmp_path / "xarray.nc").read_bytes()
 
 
 def test_dimensions_units_and_words(result):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.interpolate import PchipInterpolator
 from thesis_artery import DIASTOLE, thesis_waveform
 
 from solver.errors import ModelError
@@ -24,6 +25,21 @@ def waveforms(draw):
 def test_through_its_points(waveform):
     np.testing.assert_allclose(waveform(waveform.times), waveform.values, atol=1e-12)
     assert waveform.period == waveform.times[-1]
+
+
+@given(waveforms(), st.lists(st.floats(0, 1), min_size=1, max_size=20))
+def test_scipys_interpolant_to_the_bit(waveform, phases):
+    times = np.concatenate([waveform.times[:-1], np.array(phases) * waveform.period % waveform.period])
+    exact = PchipInterpolator(waveform.times, waveform.values)(times)
+    np.testing.assert_array_equal(waveform(times), exact)
+
+
+@pytest.mark.parametrize("values", [[0.1, 0.1], [0.1, 0.3, 0.1], [0.1, -0.2, 0.4, 0.4, 0.1]])
+def test_scipys_interpolant_of_few_points(values):
+    waveform = Waveform(np.linspace(0.0, 0.8, len(values)), np.array(values))
+    times = np.linspace(0.0, 0.79, 80)
+    exact = PchipInterpolator(waveform.times, waveform.values)(times)
+    np.testing.assert_array_equal(waveform(times), exact)
 
 
 @given(waveforms(), st.floats(0, 1), st.integers(-3, 5))
