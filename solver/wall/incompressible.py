@@ -8,7 +8,6 @@ state, λ_θ = r/ρ = 1/λ_r, and the pressure inside is (Ogden 1997, Non-Linear
 
 import numpy as np
 from numpy.polynomial import legendre
-from scipy.optimize import brentq
 
 from cases.arrays import Floats
 from solver.wall.finite_strain import QUADRATURE, Constitutive
@@ -40,6 +39,8 @@ def incompressible_curve(
     lowest, highest : float
         Pressures above the one of the unloaded wall, Pa; lowest ≤ 0 ≤ highest.
     """
+    from scipy.optimize import brentq  # few cases have such a wall, and it takes long to load
+
     points, weights = legendre.leggauss(QUADRATURE)
     position = radius + 0.5 * thickness * (points + 1)
     weight = 0.5 * thickness * weights * position  # ρ dρ
