@@ -134,6 +134,12 @@ def test_help_of_no_command_loads_a_library_that_is_slow_to_load():
     assert done.stderr.splitlines() == [package + libraries for package, libraries in loaded.items()]
 
 
+def test_a_comparison_loads_no_library_before_it_is_used():
+    late = {"dask", "matplotlib", "pint", "pyvista", "scipy.interpolate", "scipy.optimize", "scipy.stats"}
+    code = f"import sys, validation.compare.case; print(*sorted(set(sys.modules) & {late}))"
+    assert python("-c", code).stdout == "\n"
+
+
 def test_a_closed_pipe_ends_quietly(tmp_path):
     names = [str(ROOT / "cases/calcification.yaml")] * 2
     with subprocess.Popen(  # noqa: S603

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import simpson
 
 from cases.arrays import Floats
 
@@ -64,6 +63,8 @@ class Rays:
 
     def mean(self, values: Floats) -> Floats:
         """Mean over each ray with weight y dy, (..., n_y) → (...): 2∫₀¹ f y dy by Simpson's rule."""
+        from scipy.integrate import simpson
+
         weights = 2.0 * self.y * simpson(np.eye(self.y.size), x=self.y, axis=-1)
         return np.asarray(np.einsum("...k,k->...", values, weights))
 

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from scipy.interpolate import CubicSpline
 
 from cases.arrays import Floats
 from cases.sections.case import Case
@@ -142,6 +141,8 @@ def _times(stated: SeriesReference, table: pd.DataFrame) -> Floats:
 
 def _at(times: Floats, known: Floats, values: Floats, period: float) -> Floats:
     """Values at the ``known`` times of the series, repeated with the period, at others by a cubic spline."""
+    from scipy.interpolate import CubicSpline
+
     if np.ptp(known) > (1 - SLACK) * period:  # the last instant is the first of the next cycle
         known, values = known[:-1], values[:-1]
     spline = CubicSpline(

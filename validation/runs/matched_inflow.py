@@ -5,8 +5,11 @@ states only; between them q(t) = c p(t) + s(t) with the prescribed inflow p, its
 and a periodic cubic spline s through the rest, so that what p does between two states is kept.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from cases.arrays import Floats
 from cases.sections.case import Case
@@ -16,6 +19,9 @@ from solver.case.model import inlet_signal
 from validation.errors import ValidationError
 from validation.reference.alignment import SLACK, WHOLE, Alignment
 from validation.reference.kind import Reference
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 SAMPLES = 2000  # points of the waveform in a cycle
 SAME_INSTANT = 1e-3  # share of a cycle within which two states are one
@@ -99,6 +105,8 @@ def _prescribed(case: Case, times: Floats) -> Floats:
 
 def _periodic(times: Floats, values: Floats, period: float) -> CubicSpline:
     """Periodic cubic spline through values at instants, those of one instant taken once."""
+    from scipy.interpolate import CubicSpline
+
     phases = np.mod(times, period)
     order = np.argsort(phases, kind="stable")
     phases, values = phases[order], values[order]

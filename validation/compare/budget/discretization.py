@@ -8,7 +8,6 @@ observed order is that of the scheme, else 3 with an order that is clipped.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from validation.converge.convergence import FORMAL_ORDER, LEAST_ORDER, ROUND_OFF, SAFETY
 
@@ -59,6 +58,7 @@ def observed_order(
     """
     if fine_change <= 0.0 or coarse_change <= 0.0:
         return None
+    from scipy.optimize import brentq
 
     def missed(order: float) -> float:
         grown = (coarse_ratio**order - 1.0) * fine_ratio**order / (fine_ratio**order - 1.0)
