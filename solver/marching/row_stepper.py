@@ -162,8 +162,8 @@ class Stepper:
         self.sweeps += sweeps
         if status != layout.OK:
             raise failure(status, self.time + time_step, i, j)
-        moved = self._fields.area, self._fields.flow
-        if not all(math.isfinite(np.add.reduce(each, axis=None)) for each in moved):  # NaN and ∞ stay in a sum
+        moved = self._fields.area, self._fields.flow  # NaN and ∞ stay in a sum
+        if not all(math.isfinite(np.add.reduce(each, axis=None)) for each in moved):
             raise NotFinite(self.time, 0, 0)
 
     def save(self, area: Floats, flow: Floats, pressure: Floats) -> None:
