@@ -172,7 +172,8 @@ def test_a_case_states_limits(case_file, monkeypatch, capsys):
     )
     assert command.main() == 2
     said = capsys.readouterr().err
-    assert said.startswith("the Courant number is above its limit at t = 0.02 s: courant_number = ")
+    assert said.startswith(str(case_file))
+    assert ", variant patch: the Courant number is above its limit at t = 0.02 s: courant_number = " in said
     assert said.endswith("; allowed: at most 2.5\n")
     assert not output.exists()
 
