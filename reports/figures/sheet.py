@@ -169,9 +169,12 @@ def frames(axis: Axes, panels: Sequence[Panel], closed: bool = False) -> None:
 
 
 def across_panels(axis: Axes, panels: Sequence[Panel], ordinates: Sequence[float], **style: Any) -> None:
-    """Draw horizontal lines through every panel."""
+    """Draw horizontal lines through every panel that has these ordinates."""
     lines = [
-        [(p.left, float(p.up(y))), (p.left + p.width, float(p.up(y)))] for p in panels for y in ordinates
+        [(p.left, float(p.up(y))), (p.left + p.width, float(p.up(y)))]
+        for p in panels
+        for y in ordinates
+        if p.y[0] <= y <= p.y[1]
     ]
     plain = {"color": GRID, "linewidth": 0.4, "zorder": 0.5, "solid_capstyle": "butt"}
     segments(axis, lines, **{**plain, **style})

@@ -1,12 +1,14 @@
 """What calcification moves is drawn for each model, with its calcified stretches tinted."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from drawn_figure import drawn, filled, line_data
 
 from reports.figures import along_and_around as module
 from reports.figures.along_and_around import Change, ChangeRow, along_and_around
-from reports.figures.colours import CALCIFIED, MODELS, REFERENCE
+from reports.figures.colours import CALCIFIED, MODELS, QUIET, REFERENCE
 from reports.figures.lumen_cells import runs
 
 X = np.arange(0.5, 10)
@@ -45,3 +47,14 @@ def test_one_cell_around_one_variant_one_model_and_nan() -> None:
     rows = [ChangeRow("$R$ (mm)", "φ (°)", np.array([180.0]), (one,))]
     drawings = {along_and_around(("ring − none",), rows, ("2D",)) for _ in range(2)}
     assert len(drawings) == 1
+
+
+def test_a_scale_without_zero_has_no_line_at_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = [ChangeRow("$R$ (mm)", "x (mm)", X, (Change(3 + DIP, (3 + DIP,), INSIDE),)) for _ in range(3)]
+
+    def lines(from_zero: bool) -> int:
+        drawing = partial(along_and_around, ("a",), rows, ("row",), from_zero=from_zero)
+        return len(line_data(drawn(monkeypatch, module, drawing), QUIET, points=2))
+
+    assert lines(from_zero=True) == 3
+    assert not lines(from_zero=False)
