@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib import colormaps, style
+from matplotlib import style
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap, Normalize
+from matplotlib.colors import LinearSegmentedColormap, Normalize
 
 from cases.arrays import Floats
 from reports.figures import sheet
@@ -21,15 +21,18 @@ from reports.figures.colours import LIMIT, QUIET, Dashes
 from reports.figures.sheet import Panel
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.70, 0.62, 0.46, 0.36
-_HEIGHT, _GAP = 0.56, 0.33  # inches
+_HEIGHT, _GAP = 0.54, 0.33  # inches
+_WORDS = 0.10  # inches; bias and scatter above the differences
 _BOXES = (96, 56)
 _SCATTER = 1.96  # standard deviations: 19 of 20 of normal values
 BIAS = "#b8480b"
 _SPREAD: Dashes = (0, (3.2, 1.4))
 _DECADES = 4  # of the scale of counts; a box with more has its darkest colour
+# The hue tells counts from each other and the brightness hardly: each is seen on white and on dark paper.
+_COUNTS = LinearSegmentedColormap.from_list("counts", ["#5693cf", "#7a6fc4", "#b8306f"], 128)
 _SCALE = Scale(
     Normalize(0, _DECADES),
-    ListedColormap(colormaps["Blues"](np.linspace(0.3, 1.0, 128))).with_extremes(bad=(0, 0, 0, 0)),
+    _COUNTS.with_extremes(bad=(0, 0, 0, 0)),
     (0, _DECADES),
     tuple((float(k), f"{10**k}") for k in range(_DECADES + 1)),
 )
@@ -74,18 +77,19 @@ def agreement(variants: Sequence[str], rows: Sequence[Agreement], model: str, re
         SVG; the same text for the same input.
     """
     with style.context(STYLE):
-        total = _TOP + (_HEIGHT + _GAP) * 2 * len(rows) - _GAP + _BOTTOM
+        both = 2 * (_HEIGHT + _GAP) + _WORDS
+        total = _TOP + both * len(rows) - _GAP + _BOTTOM
         figure, axis = sheet.sheet(total)
         bottom = total - _TOP - _HEIGHT
         for number, row in enumerate(rows):
             pairs = [_stated(*pair) for pair in zip(row.reference, row.model, strict=True)]
             upper = _parity(axis, row, pairs, bottom, (reference, model))
-            lower = _differences(axis, row, pairs, bottom - _HEIGHT - _GAP, (reference, model))
+            lower = _differences(axis, row, pairs, bottom - both / 2 - _WORDS / 2, (reference, model))
             if number == 0:
                 sheet.headings(axis, upper, variants)
                 right, foot = WIDTH - _RIGHT + 0.06, lower[0].bottom
                 bar(axis, (right, foot, upper[0].top - foot), _SCALE, "cells × states per box")
-            bottom -= 2 * (_HEIGHT + _GAP)
+            bottom -= both
         keys = [
             sheet.Key("equal", QUIET, "-"),
             sheet.Key("bias", BIAS, "-"),
@@ -161,11 +165,12 @@ def _differences(
         bias, spread = float(difference.mean()), _SCATTER * float(difference.std())
         sheet.across_panels(axis, [panel], [bias], color=BIAS, linewidth=1.0, zorder=2.5)
         for end in (bias - spread, bias + spread):
-            if shown[0] <= end <= shown[1]:
-                style_of = {"color": BIAS, "linewidth": 0.8, "linestyle": _SPREAD, "zorder": 2.5}
-                sheet.across_panels(axis, [panel], [end], **style_of)
+            sheet.across_panels(
+                axis, [panel], [end], color=BIAS, linewidth=0.8, linestyle=_SPREAD, zorder=2.5
+            )
         words = f"{bias:+.2f} ± {spread:.2f} %".replace("-", "\N{MINUS SIGN}")
-        sheet.corner(axis, panel, words)
+        place = panel.left + panel.width, panel.top + 0.02
+        axis.text(*place, words, ha="right", va="bottom", fontsize=sheet.SMALL, color=BIAS)
     sheet.ordinates(axis, panels, f"{model} − {reference}\n(% of {reference})", 3)
     sheet.abscissas(axis, panels, f"mean of both {row.symbol} ({row.unit})")
     sheet.frames(axis, panels)

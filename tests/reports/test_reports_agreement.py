@@ -1,9 +1,15 @@
 """Parity and differences count every stated pair once, and tell bias, scatter and limit of what is drawn."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 from drawn_figure import drawn, filled, line_data, words
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 from cases.arrays import Floats
 from reports.figures import agreement as module
@@ -49,3 +55,32 @@ def test_what_is_not_stated_is_not_counted_and_no_limit_is_no_band(monkeypatch: 
     assert "within the limit" not in words(figure)
     nowhere = Agreement("$R$", "mm", (np.full(3, np.nan),), (np.ones(3),))
     assert agreement(("none",), [nowhere], "2D") == agreement(("none",), [nowhere], "2D")
+
+
+def test_words_stand_above_the_differences(monkeypatch: pytest.MonkeyPatch) -> None:
+    figure = _figure(monkeypatch, ROW)
+    (told,) = (text for text in figure.axes[0].texts if "±" in text.get_text() and "%" in text.get_text())
+    assert told.get_position()[1] > max(image.get_extent()[3] for image in _maps(figure)[1:])
+    box = _box(told, figure)
+    others = [text for text in figure.axes[0].texts if text is not told]
+    assert not any(box.overlaps(_box(text, figure)) for text in others)
+
+
+def _box(text: Text, figure: Figure) -> Bbox:
+    canvas = FigureCanvasAgg(figure)
+    return text.get_window_extent(canvas.get_renderer()).transformed(figure.axes[0].transData.inverted())
+
+
+def _maps(figure: Figure) -> list[AxesImage]:
+    return [image for image in figure.axes[0].images if image.get_array().shape[1] > 1]
+
+
+def test_counts_are_seen_on_white_and_on_dark_paper() -> None:
+    def brightness(colour: Sequence[float]) -> float:
+        linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in colour[:3]]
+        return float(np.dot(linear, (0.2126, 0.7152, 0.0722)))
+
+    dark = brightness([int("15181c"[k : k + 2], 16) / 255 for k in (0, 2, 4)])
+    for colour in module._SCALE.colours(np.linspace(0, 1, 20)):
+        assert 1.05 / (brightness(colour) + 0.05) >= 3
+        assert (brightness(colour) + 0.05) / (dark + 0.05) >= 3
