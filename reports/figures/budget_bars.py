@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 
 from reports.figures.canvas import STYLE, WIDTH, legend_above, svg_text
 
-_COLOURS = ("#1a1a1a", "#b8480b", "#0072b2", "#e69f00", "#56b4e9", "#009e73")
+_COLOURS = ("#1a1a1a", "#b8480b", "#0072b2", "#e69f00", "#cc79a7", "#009e73")
 _LEFT, _RIGHT, _TOP, _BOTTOM = 1.2, 0.2, 0.32, 0.40
 _BAR, _BAR_OF_MANY, _MANY, _GAP = 0.12, 0.065, 4, 0.12  # inches
 
@@ -64,7 +64,7 @@ def budget_bars(words: Sequence[str], variants: Sequence[BudgetBars]) -> str:
             [variant.name for variant in variants],
         )
         axis.spines[["top", "right"]].set_visible(False)
-        axis.set_xlabel("share of the 3D value (%); line: what holds the error of the model")
+        axis.set_xlabel("share of the 3D value (%); line: interval in which the error of the model lies")
         handles = [Patch(facecolor=colour, label=text) for colour, text in zip(_COLOURS, words, strict=False)]
         legend_above(figure, handles, 0.05)
         return svg_text(figure)

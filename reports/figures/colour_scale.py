@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm, Colormap, LinearSegmentedColormap, L
 from matplotlib.image import AxesImage
 
 from cases.arrays import Flags, Floats
-from reports.figures.colours import MISSING
+from reports.figures.colours import HATCH, MISSING
 from reports.figures.sheet import Panel, across_panels, frames, line, numerals, ticks, upright
 
 BAR = 0.08  # inches; a bar's width
@@ -120,7 +120,7 @@ def hatch(axis: Axes, panel: Panel, x: Floats, y: Floats, values: Floats, limit:
         for inside, slope in ((values > limit, 1.0), (values < -limit, -1.0)):
             if inside.any():
                 across, up = _strokes(panel, x, y, inside, slope)
-                line(axis, across, up, color="#ffffff", linewidth=0.45, zorder=0.4, solid_capstyle="butt")
+                line(axis, across, up, color=HATCH, linewidth=0.45, zorder=0.4, solid_capstyle="butt")
 
 
 def _strokes(panel: Panel, x: Floats, y: Floats, inside: Flags, slope: float) -> tuple[Floats, Floats]:

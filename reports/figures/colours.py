@@ -37,4 +37,5 @@ BEYOND: Final = "#b8480b"  # what is beyond a limit
 LIMIT: Final = "#e3e8ee"  # band between −limit and +limit
 MISSING: Final = "#b0b0b0"  # what is not stated
 GRID: Final = "#d8d8d8"
+HATCH: Final = "#fefefe"  # white on any paper: what lies on colours is not turned with the page's own
 QUIET: Final = "#6a6a6a"  # marks and edges that are no data
