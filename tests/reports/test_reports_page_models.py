@@ -3,9 +3,10 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 import synthetic_comparison as synthetic
 import xarray as xr
-from opened_page import WIDE, open_page
+from opened_page import NARROW, WIDE, open_page
 from playwright.sync_api import Browser
 
 from reports.build import write_reports
@@ -36,3 +37,44 @@ def test_the_chosen_model_is_what_all_pictures_compare(
         page.wait_for_function("(model) => location.hash.includes(`model=${model}`)", arg=model)
     assert one.console == []
     page.context.close()
+
+
+# Notes each word that a canvas draws with where it begins and ends, in pixels of the page.
+WATCH = """
+window.written = [];
+const write = CanvasRenderingContext2D.prototype.fillText;
+CanvasRenderingContext2D.prototype.fillText = function (text, x, y, most) {
+  const wide = Math.min(most ?? Infinity, this.measureText(text).width);
+  const left = x - { left: 0, start: 0, center: wide / 2, right: wide, end: wide }[this.textAlign];
+  written.push({ text, left, right: left + wide, y, width: parseFloat(this.canvas.style.width) });
+  return write.apply(this, arguments);
+};
+"""
+
+
+@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["1400 px", "400 px"])
+def test_no_word_of_the_maps_is_cut_or_lies_on_another(
+    browser: Browser, tmp_path: Path, small: synthetic.Setup, undrawn: None, size: dict[str, int]
+) -> None:
+    synthetic.write(tmp_path, small, ("row", "coupled"))
+    write_reports(tmp_path)
+    context = browser.new_context(viewport=size, bypass_csp=True)  # type: ignore[arg-type]
+    context.add_init_script(WATCH)
+    page = context.new_page()
+    page.goto((tmp_path / "report.html").as_uri() + "#maps&model=coupled&quantity=sector_flow_rate")
+    page.wait_for_selector("html[data-scripts=ready]", state="attached")
+    page.locator("#maps-anytime").scroll_into_view_if_needed()
+    page.wait_for_function("document.querySelector('#maps-anytime .readout').textContent.includes('coupled')")
+    written = page.evaluate("written")
+    texts = {word["text"] for word in written}
+    assert {"coupled − 3D", "qᵩ (cm³/s)", "(mm³/s)"} <= texts
+    for word in written:
+        assert word["left"] >= 0
+        assert word["right"] <= word["width"], word["text"]
+    last = written[max(k for k, word in enumerate(written) if word["text"] == "3D") :]
+    for k, one in enumerate(last):
+        for other in last[k + 1 :]:
+            if abs(one["y"] - other["y"]) < 8:
+                apart = one["right"] <= other["left"] or other["right"] <= one["left"]
+                assert apart, (one["text"], other["text"])
+    context.close()

@@ -113,8 +113,8 @@ async function bothModels(field) {
   return { reference, rom };
 }
 // Exponents beyond 100 are packed as absent: such a profile is flat to the eye.
-const exponentWords = (value, digits) => (Number.isFinite(value) ? number(value, digits) : "> 100 (plug flow)");
-const valueWords = (value, field) => (field === page.fields.profile_exponent ? exponentWords(value) : withUnit(number(value), field.unit));
+const exponentWords = (value, digits) => (Number.isFinite(value) ? stated(value, digits) : "> 100 (plug flow)");
+const valueWords = (value, field) => (field === page.fields.profile_exponent ? exponentWords(value) : withUnit(stated(value), field.unit));
 const modelLabel = () => page.models[chosen.model].label;
 const modelColour = () => `var(--model-${chosen.model % 3})`;
 

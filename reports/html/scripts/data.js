@@ -37,5 +37,10 @@ function number(value, digits = 4) {
   if (value === null || !Number.isFinite(value)) return "—";
   return String(Number(value.toPrecision(digits))).replace("-", "−");
 }
-const signed = (value, digits = 3) => (value > 0 ? "+" : "") + number(value, digits);
+// A value beside others: with its last zeros, so that all tell as many digits.
+function stated(value, digits = 4) {
+  const size = Math.abs(value);
+  return size >= 1e-3 && size < 10 ** digits ? value.toPrecision(digits).replace("-", "−") : number(value, digits);
+}
+const signed = (value, digits = 3) => (value > 0 ? "+" : "") + stated(value, digits);
 const withUnit = (text, unit) => (unit ? `${text}\u00a0${unit}` : text);

@@ -20,7 +20,7 @@ function errors(host) {
         { name: "error against 3D", panel: 0, x: gamma, y: error, colour: "var(--reference)", kind: "line" },
         ...marks.filter(([, value]) => Number.isFinite(value)).map(([name, value, colour]) => ({ name: `γ ${name}`, panel: 0, x: [value, value], y: [0, most], colour, kind: "line", dash: true })),
       ],
-      told: (k, n) => (n ? [`γ ${marks[n - 1][0]}: ${exponentWords(marks[n - 1][1], 3)}`] : [`γ = ${number(gamma[k], 3)}: error ${number(error[k], 3)} %`]),
+      told: (k, n) => (n ? [`γ ${marks[n - 1][0]}: ${exponentWords(marks[n - 1][1], 3)}`] : [`γ = ${number(gamma[k], 3)}: error ${stated(error[k], 3)} %`]),
     });
     words.textContent = `Variant ${page.variants[chosen.variant]}, ${placeWords(page.i[i] - 1, page.j[j] - 1)} (the shown cell nearest to the chosen place), `
       + `${moment(page.named[instant].state)}: γ closest to 3D ${exponentWords(marks[0][1], 3)}, of ${two} ${exponentWords(marks[1][1], 3)}.`;

@@ -18,7 +18,7 @@ function maps(host) {
     const panels = [
       { title: "3D", values: now(models.reference), unit: field.unit, symbol: field.symbol, low, high, colours: VIRIDIS },
       { title: two, values: now(models.rom), unit: field.unit, symbol: field.symbol, low, high, colours: VIRIDIS },
-      { title: `${two} − 3D`, values: now(difference), unit: field.difference_unit, symbol: `${two} − 3D`, low: -most, high: most, colours: DIVERGING },
+      { title: `${two} − 3D`, values: now(difference), unit: field.difference_unit, symbol: "", low: -most, high: most, colours: DIVERGING },
     ];
     const cellUnder = drawMaps(canvas, place.clientWidth, panels, await unpack(page.calcified[chosen.variant]));
     place.drawn = panels;
@@ -72,7 +72,7 @@ function bordersOf(centres) {
   return last ? [2 * centres[0] - inner[0], ...inner, 2 * centres[last] - inner[last - 1]] : [centres[0] - 0.5, centres[0] + 0.5];
 }
 
-const ROOM = { left: 46, top: 24, bottom: 40, gap: 14, bar: 96 };
+const ROOM = { left: 46, top: 24, bottom: 40, gap: 26, bar: 96 };
 
 // Draws the panels side by side, or above each other where there is little room; returns what tells the cell under an event.
 function drawMaps(canvas, width, panels, inside) {
@@ -167,7 +167,7 @@ function drawOutline(pen, x, phi, [alongX, alongPhi], inside) {
 
 function drawAxes(pen, title, { left, top, across, high }, x, [below, beside]) {
   pen.textAlign = "center";
-  pen.fillText(title, left + across / 2, top - 8);
+  pen.fillText(title, left + across / 2, top - 8, across - 30); // a long name is set closer
   for (const [value, text] of below ? x.ticks : []) pen.fillText(text, x.at(value), top + high + 15);
   if (below) pen.fillText("x (mm)", left + across / 2, top + high + 32);
   pen.textAlign = "right";

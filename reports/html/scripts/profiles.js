@@ -11,7 +11,7 @@ function profiles(host) {
     const reference = ray(models.reference), rom = ray(models.rom);
     const [least] = extent([reference, rom]);
     const two = modelLabel();
-    const told = (k) => [`r/R = ${page.y[k].toFixed(3)}`, `3D ${number(reference[k])} ${field.unit}`, `${two} ${number(rom[k])} ${field.unit}`];
+    const told = (k) => [`r/R = ${page.y[k].toFixed(3)}`, `3D ${withUnit(stated(reference[k]), field.unit)}`, `${two} ${withUnit(stated(rom[k]), field.unit)}`];
     chart(place, {
       height: 340, told, x: { title: "r/R (–)", range: [-0.02, 1.02] },
       panels: [{ title: named(field.symbol, field.unit), share: 1, low: Math.min(0, least), high: 1.05 * most }],
@@ -21,7 +21,7 @@ function profiles(host) {
       ],
     });
     words.textContent = `Variant ${page.variants[chosen.variant]}, ${placeWords(page.i[i] - 1, page.j[j] - 1)} (the shown cell nearest to the chosen place), `
-      + `${moment(chosen.time)}: on the axis 3D ${withUnit(number(reference[0]), field.unit)}, ${two} ${withUnit(number(rom[0]), field.unit)}.`;
+      + `${moment(chosen.time)}: on the axis 3D ${withUnit(stated(reference[0]), field.unit)}, ${two} ${withUnit(stated(rom[0]), field.unit)}.`;
   });
   follow(["variant", "model", "time", "i", "j"], wish);
 }

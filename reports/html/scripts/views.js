@@ -1,7 +1,8 @@
 // What all interactive pictures share: a frame, and the moment at which they are drawn.
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const isNarrow = (place) => place.clientWidth < 620;
-const named = (symbol, unit) => (unit ? `${symbol} (${unit})` : symbol);
+const SUBSCRIPTS = { x: "ₓ", r: "ᵣ", φ: "ᵩ" };
+const named = (symbol, unit) => [symbol.replace(/_([xrφ])/g, (_, letter) => SUBSCRIPTS[letter]), unit && `(${unit})`].filter(Boolean).join(" ");
 const drawings = []; // to be called when the page's colours change
 
 // A picture inside a page section: where its controls, its drawing and its words go.
