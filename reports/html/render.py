@@ -9,12 +9,14 @@ from functools import cache
 from importlib.resources import files
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
-from reports.blocks import Figure, Report
+from reports.blocks import Figure, Interactive, Report
 from reports.html.picture import image_address
 
 _LARGE = 8_000  # bytes
+_SUBSCRIPTED = re.compile(r"\b([vq])_([rxφ])\b")
+_RAISED = re.compile(r"\^γ")
 
 
 def render_html(report: Report, drawings: Mapping[str, str]) -> str:
@@ -48,7 +50,16 @@ def environment() -> Environment:
     made.filters["data_link"] = _data_link
     made.filters["kind"] = lambda block: type(block).__name__
     made.filters["svg_size"] = _svg_size
+    made.filters["symbols"] = _symbols
+    made.tests["scripted"] = lambda section: all(isinstance(block, Interactive) for block in section.blocks)
     return made
+
+
+def _symbols(text: str) -> Markup:
+    """Escape a text and set its symbols as mathematics: v_x, (r/R)^γ."""
+    escaped = str(escape(text))
+    lowered = _SUBSCRIPTED.sub(r"<i>\1</i><sub>\2</sub>", escaped)
+    return Markup(_RAISED.sub("<sup>γ</sup>", lowered))  # noqa: S704 (escaped above)
 
 
 @cache

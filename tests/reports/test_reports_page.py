@@ -1,11 +1,13 @@
 """The page in a real browser, opened from the file system."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import synthetic_comparison as synthetic
 import xarray as xr
 from opened_page import NARROW, PRESS_EACH, WIDE, Opened, open_page, overflowing, serious_defects
 from playwright.sync_api import Browser, Page
@@ -102,6 +104,15 @@ def test_without_scripts_everything_is_there(browser: Browser, finished: Finishe
         assert page.locator("main img:visible").count() == page.locator("main figure").count() > 10
         assert page.locator("main table:visible").count() == page.locator("main table").count() > 10
         assert "bands hold" in page.locator("#main").inner_text()
+        empty = """() => [...document.querySelectorAll("main > section")]
+            .filter((section) => section.checkVisibility() && !section.innerText.trim().includes("\\n"))
+            .map((section) => section.innerText)"""
+        assert page.evaluate(empty) == []
+        assert page.locator("nav a:visible").count() == page.locator("main h2:visible").count() > 10
+        numbers = page.locator("nav li:visible").evaluate_all("(items) => items.map((item) => item.value)")
+        assert [f"{n}." for n in numbers] == [
+            text.split()[0] for text in page.locator("main h2:visible").all_inner_texts()
+        ]
     page.context.close()
 
 
@@ -353,6 +364,33 @@ def test_both_arteries_turn_together_and_stay_so(opened: Opened) -> None:
     assert page.evaluate(f"{plot}.drawn.aim") == aim
     _set(page, "turn about the axis", 0, "#artery-turned")
     page.wait_for_function(f"{plot}.drawn.aim.turn === 0")
+
+
+def test_a_figures_smallest_letters_can_be_read_on_a_narrow_screen(narrow: Opened) -> None:
+    card = narrow.page.locator("figure .card").first
+    card.scroll_into_view_if_needed()
+    drawn = card.locator("img").bounding_box()
+    assert drawn is not None
+    assert 6.5 / 72 * drawn["width"] / 6.9 > 9  # px; letters of 6.5 pt in 6.9 inches
+    card.focus()
+    narrow.page.keyboard.press("End")
+    narrow.page.keyboard.press("ArrowRight")
+    narrow.page.wait_for_function("document.querySelector('figure .card').scrollLeft > 0")
+
+
+def test_values_beside_each_other_tell_as_many_digits(opened: Opened) -> None:
+    page = opened.page
+    page.locator("#curves-anywhere").scroll_into_view_if_needed()
+    _choose(page, "variant", "local")
+    _choose(page, "quantity", "lumen radius")
+    found = set()
+    for x in range(synthetic.Setup().n_x):
+        _set(page, "x", x)
+        page.wait_for_timeout(150)
+        said = page.locator("#curves-anywhere .readout").inner_text()
+        found |= set(re.findall(r"(?:3D|2D) ([\d.]+)\u00a0mm", said))
+    assert len(found) > 20
+    assert {len(text) for text in found} == {len("2.633")}
 
 
 def test_a_figure_opens_at_full_size_on_a_narrow_screen(narrow: Opened) -> None:

@@ -204,3 +204,14 @@ def test_a_time_stamp_that_is_none_is_refused(
     monkeypatch.setattr("sys.argv", ["reports", str(tmp_path)])
     assert main() == 2
     assert "created is 'yesterday'" in capsys.readouterr().err
+
+
+def test_symbols_are_set_as_mathematics(
+    two_models: tuple[Path, Rows], pdf_text: Callable[[Path], str]
+) -> None:
+    directory, _ = two_models
+    source, said = _page(directory / "report.html")
+    assert "|<i>v</i><sub>r</sub>|/<i>v</i><sub>x</sub>" in source
+    assert "(r/R)<sup>γ</sup>" in source
+    for text in (said, pdf_text(directory / "report.pdf")):
+        assert not re.search(r"\b[vq]_[rxφ]\b|\^γ", text)

@@ -74,7 +74,7 @@ function spot(all, k) {
 }
 
 function metricCell(title, name, value, unit, relative) {
-  const cell = element("td", { role: "cell", "data-label": title, className: name === "status" ? "status" : typeof value === "number" ? "number" : "prose" });
+  const cell = element("td", { role: "cell", className: name === "status" ? "status" : typeof value === "number" ? "number" : "prose" });
   if (value === null || value === "") cell.append("—");
   else if (name === "status") cell.append(element("span", { className: value.toLowerCase() }, value));
   else if (typeof value !== "number") cell.append(value);
