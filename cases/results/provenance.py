@@ -92,6 +92,15 @@ class RecordCheck(Record):
     largest_difference: Amount | None
 
 
+class InputCheck(Record):
+    """An input that the 3D run's log tells, SI, beside the case's; None where the reduced model has none."""
+
+    name: str
+    unit: str
+    reference: float
+    case: float | None
+
+
 class ReferenceSettings(_Settings):
     """What the 3D reference is.
 
@@ -107,6 +116,8 @@ class ReferenceSettings(_Settings):
         What it took.
     data_records : tuple of RecordCheck
         What was compared with the plot file.
+    inputs : tuple of InputCheck
+        Inputs of its run that a log tells.
     """
 
     coverage: Share | None = None
@@ -114,10 +125,12 @@ class ReferenceSettings(_Settings):
     simulation: str | None = None
     cost: SimulationCost | None = None
     data_records: tuple[RecordCheck, ...] = ()
+    inputs: tuple[InputCheck, ...] = ()
 
     def facts(self) -> dict[str, JsonValue]:
         """All facts but those that have tables of their own."""
-        return {k: v for k, v in super().facts().items() if k not in ("cost", "data_records", "wall_time_s")}
+        apart = ("cost", "data_records", "inputs", "wall_time_s")
+        return {k: v for k, v in super().facts().items() if k not in apart}
 
 
 class VariantRecord(Record):

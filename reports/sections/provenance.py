@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from pydantic import JsonValue
@@ -10,18 +10,21 @@ from pydantic import JsonValue
 from reports.blocks import Block, Bullets, Column, Listing, Paragraph, Table
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
-from reports.sections.parts.cost import cost_table, records_table
+from reports.sections.parts.cost import cost_table, inputs_table, records_table
 from reports.wording.numbers import ABSENT, counted
 
 Facts = Mapping[str, JsonValue]
-_SMALL = 1e-6  # figures that matter by their order of magnitude only
+_SMALL = 1e-4  # figures that matter by their order of magnitude only
 _KEYS = {
     "n_x": "cells along the artery",
     "n_phi": "cells around the artery",
     "viscosity_Pa_s": "viscosity (Pa s)",
     "coverage": "share of the cycle covered",
     "cycle_change": "relative change over the last cycle",
+    "wall_locality_error": "largest error of R by a pressure for each section (relative)",
+    "version": "version of the plot file",
 }
+_OF_MACHINE = {"cores": "{} cores", "byte_order": "{}-endian"}
 
 
 def _word(value: object) -> str:
@@ -32,7 +35,7 @@ def _word(value: object) -> str:
     if isinstance(value, float) and 0.0 < abs(value) < _SMALL:
         return f"{value:.1e}"
     if isinstance(value, float):
-        return f"{value:.6g}"
+        return f"{value:.4g}"
     if isinstance(value, dict | list):
         return json.dumps(value, ensure_ascii=False)
     return str(value)
@@ -62,9 +65,9 @@ def _run(comparison: Comparison) -> Table:
             "case file": p.case.path,
             "created": p.created,
             "package version": p.package_version,
-            "git commit": p.git_commit,
+            "git commit": (p.git_commit or "").replace("+", " with local changes"),
             "Python": p.python,
-            "machine": ", ".join(str(value) for value in p.machine.values()),
+            "machine": ", ".join(_OF_MACHINE.get(k, "{}").format(value) for k, value in p.machine.items()),
         },
     )
 
@@ -120,10 +123,11 @@ def settings(comparison: Comparison) -> Blocks:
         blocks.append(_facts(comparison, model, f"{which}: grid, time step and settings.", told))
     told = {name: p.variants[name].reference.facts() for name in comparison.variants}
     blocks.append(_facts(comparison, "reference", "3D reference: files, mesh and states.", told))
-    blocks += [table for table in (records_table(comparison),) if table]
+    blocks += [table for table in (inputs_table(comparison), records_table(comparison)) if table]
     for model in comparison.models:
         cost = cost_table(comparison.of(model))
-        blocks += [replace(cost, key=f"cost-{model}")] if cost else []
+        named = "" if len(comparison.models) == 1 else f"2D model {model}. "
+        blocks += [replace(cost, key=f"cost-{model}", caption=named + cost.caption)] if cost else []
     if p.wall_times_s:
         blocks.append(
             pairs(
@@ -138,6 +142,18 @@ def settings(comparison: Comparison) -> Blocks:
     blocks.append(_inputs(comparison))
     blocks.append(pairs("versions", "Versions of the libraries.", ("package", "version"), p.versions))
     if p.notes:
-        blocks.append(Paragraph(f"{counted(len(p.notes), 'note')} of the run, warnings and assumptions:"))
-        blocks.append(Bullets(p.notes))
+        notes = _once(p.notes)
+        blocks.append(Paragraph(f"{counted(len(notes), 'note')} of the run, warnings and assumptions:"))
+        blocks.append(Bullets(notes))
     return tuple(blocks)
+
+
+def _once(notes: Iterable[str]) -> tuple[str, ...]:
+    """Notes that say the same of several variants and models, or files, as one that names them all."""
+    same: dict[str, list[str]] = {}
+    for note in notes:
+        of, colon, said = note.partition(": ")
+        same.setdefault(said if colon else "", []).append(of)
+    alone = [(of, "") for of in same.pop("", [])]
+    both = [*alone, *(("; ".join(of), said) for said, of in same.items())]
+    return tuple(f"{of}: {said}" if said else of for of, said in both)

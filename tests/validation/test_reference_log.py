@@ -114,3 +114,8 @@ def test_the_ready_runs(name, seconds):
         450,
         "normally",
     )
+    moduli = {(item["material"], item["name"]): item["value"] for item in found.materials}
+    healthy = {("Healthy", "E"): 6e5, ("Healthy", "v"): 0.48, ("Healthy", "density"): 1000.0}
+    stiff = {("Calcified", "E"): 1e7, ("Calcified", "v"): 0.48, ("Calcified", "density"): 1000.0}
+    blood = {("Blood", "density"): 1060.0, ("Blood", "mu"): 0.0035}
+    assert moduli == blood | healthy | ({} if name == "none" else stiff)

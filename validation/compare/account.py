@@ -1,6 +1,7 @@
 """What a comparison says of itself: notes, warnings, and where everything came from."""
 
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 from cases.reading.case_file import CaseFile
 from cases.reading.models import labelled
@@ -11,6 +12,7 @@ from cases.sections.doubts import doubts_of
 from solver.case.locality import locality_warning
 from solver.case.periodicity import periodicity_warning
 from validation.compare.comparison import VariantRun
+from validation.compare.inputs import compared_inputs, differing
 from validation.metrics.confidence import SEED
 from validation.reference.alignment import WHOLE
 from validation.runs.instants import nearest_states, wanted_instants
@@ -38,11 +40,30 @@ def notes_of(runs: Runs) -> list[str]:
         )
         notes += [] if run.sources is None else run.sources.notes
     stated = ", ".join(f"{value:g}" for value in sorted({run.case.blood.viscosity for run in each.values()}))
-    notes.append(
-        f"viscosity of the reduced model: {stated} Pa s; that of the reference, its density and its wall's "
-        "moduli are not compared with the case"
-    )
+    told = f"viscosity of the reduced model: {stated} Pa s"
+    inputs = [item for name, run in firsts.items() for item in _inputs(run)]
+    if not all(_inputs(run) for run in firsts.values()):
+        told += "; that of the reference, its density and its wall's moduli are not compared with the case"
+    elif all(item["case"] is None for item in inputs):
+        told += "; the case has none of the inputs that the reference's log tells"
+    else:
+        differ = dict.fromkeys(said for run in firsts.values() for said in differing(_inputs(run)))
+        told += "; of the inputs that the reference's log tells "
+        told += f"these differ: {'; '.join(differ)}" if differ else "those that the case has are the same"
+    notes.append(told)
     return list(dict.fromkeys(notes))
+
+
+def _inputs(run: VariantRun) -> list[dict[str, Any]]:
+    """Inputs of 3D beside the case's; none where no log tells them."""
+    return compared_inputs(run.case, run.reference.description.get("materials", ()))
+
+
+def _of_reference(run: VariantRun) -> dict[str, Any]:
+    """What the reference is, with its inputs beside the case's in place of the log's materials."""
+    facts = {key: fact for key, fact in run.reference.description.items() if key != "materials"}
+    inputs = _inputs(run)
+    return facts | ({"inputs": inputs} if inputs else {})
 
 
 def _labelled(runs: Runs) -> dict[str, VariantRun]:
@@ -100,7 +121,7 @@ def described(
         "variants": {
             name: {
                 "models": {model: run.rom.description for model, run in models.items()},
-                "reference": next(iter(models.values())).reference.description,
+                "reference": _of_reference(next(iter(models.values()))),
             }
             for name, models in runs.items()
         },

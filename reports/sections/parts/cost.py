@@ -6,6 +6,8 @@ from reports.result.load import Comparison
 from reports.sections.parts.models import headed
 from reports.wording.numbers import ABSENT, SPACE, rounded, with_unit
 
+_SHOWN = {"Pa": ("MPa", 1e-6), "kg m-3": ("kg/m³", 1.0), "1": ("–", 1.0)}  # units of inputs: of moduli, …
+
 
 def cost_table(comparison: Comparison) -> Table | None:
     """Return the cost of each variant in both models; None where no log tells that of 3D."""
@@ -107,4 +109,32 @@ def records_table(comparison: Comparison) -> Table | None:
         f"over the largest value. Plot files are in single precision, about 6{SPACE}·{SPACE}10⁻⁸.",
         (Column("variant"), *prose("record", "columns"), *numbers("instants", "values", "difference")),
         rows,
+    )
+
+
+def inputs_table(comparison: Comparison) -> Table | None:
+    """Return the inputs that the logs of 3D tell beside the case's; None without a log."""
+    names = comparison.variants
+    found = {name: comparison.provenance.variants[name].reference.inputs for name in names}
+    by_name = {name: {item.name: item for item in items} for name, items in found.items()}
+    rows = []
+    for each in dict.fromkeys(item.name for items in found.values() for item in items):
+        both = [by_name[name].get(each) for name in names]
+        stated = next(item.unit for item in both if item is not None)
+        unit, factor = _SHOWN.get(stated, (stated, 1.0))
+        values = ((None, None) if item is None else (item.reference, item.case) for item in both)
+        texts = (ABSENT if value is None else f"{factor * value:.6g}" for pair in values for value in pair)
+        rows.append((each, unit, *texts))
+    if not rows:
+        return None
+    return Table(
+        "inputs-of-both",
+        "Inputs of the 3D run, as its log tells them, beside the case's, of several moduli the nearest. "
+        f"{ABSENT}: there is none, as the density of a wall in 2D.",
+        (
+            Column("input", "prose"),
+            Column("unit"),
+            *(Column(side, "number", name) for name in names for side in ("3D", "case")),
+        ),
+        tuple(rows),
     )

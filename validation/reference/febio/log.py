@@ -1,5 +1,8 @@
 """What the log of a FEBio run tells: whether it is that of the plot file, what the run cost, how it ended."""
 
+import re
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,15 +15,17 @@ from validation.errors import UnusableReferenceError
 from validation.runs.provenance import shown_path
 
 ENDS = {"normal": "normally", "error": "with an error", "none": "not told: killed, crashed or still running"}
+_MATERIAL = re.compile(r"\d+ - (.*?)(?: \(type: .*\))?")
 SIX_DIGITS = 1e-5  # of a time: what a log prints of it
 
 
 @dataclass(frozen=True)
 class LogAccount:
-    """What a run cost, for provenance and metrics, and what casts doubt on the run."""
+    """What a run cost, for provenance and metrics, its materials, and what casts doubt on the run."""
 
     cost: dict[str, Any]
     warnings: tuple[str, ...]
+    materials: tuple[dict[str, Any], ...]
 
 
 def account_of_log(path: Path, plot: Plot) -> LogAccount:
@@ -50,7 +55,25 @@ def account_of_log(path: Path, plot: Plot) -> LogAccount:
             f"{path.name} is the log of a run that wrote {named}, while reference.plot_file is "
             f"{plot.path.name}: if they are of different runs, the cost of 3D is not that of this reference"
         )
-    return LogAccount(_cost(log), tuple(warnings))
+    return LogAccount(_cost(log), tuple(warnings), tuple(_materials(log)))
+
+
+def _materials(log: Log) -> Iterator[dict[str, Any]]:
+    """Inputs of blood and wall as the log echoes them, in the units of the run.
+
+    A log numbers its materials and tells their types, "2 - Healthy (type: isotropic elastic)", and behind a
+    slash what a mixture consists of; the solid of the fluid's own mesh is no wall.
+    """
+    for item in log.inputs:
+        material, _, part = item.item.partition(" / ")
+        found = _MATERIAL.fullmatch(material)
+        fluid = "fluid" in material
+        if item.section != "MATERIAL DATA" or not found or part.startswith("solid"):
+            continue
+        if item.name in (("density", "mu") if fluid else ("E", "v", "density")):
+            about = {"material": found[1], "fluid": fluid, "name": item.name}
+            with suppress(ValueError):  # a value that is a function of time is no number
+                yield about | {"value": float(item.value)}
 
 
 def _cost(log: Log) -> dict[str, Any]:

@@ -91,6 +91,15 @@ class PlotSeries:
         }
         if log:
             facts["cost"] = log.cost
+            units = {
+                "E": stated.pressure_unit,
+                "v": 1.0,
+                "mu": stated.pressure_unit * stated.time_unit,
+                "density": stated.pressure_unit * (stated.time_unit / stated.length_unit) ** 2,
+            }
+            facts["materials"] = [
+                item | {"value": units[item["name"]] * item["value"]} for item in log.materials
+            ]
         if records:
             facts["data_records"] = [record.facts for record in records]
         return Account(
