@@ -11,6 +11,7 @@ from reports.blocks import Block, Column, Figure, Paragraph, Table
 from reports.figures.along_and_around import Change, ChangeRow, along_and_around
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, instants
+from reports.sections.parts import change_uncertainty
 from reports.sections.parts.models import headed, model_words, sides
 from reports.sections.parts.places import place_words, shown_cell
 from reports.sections.parts.stated import anywhere
@@ -30,6 +31,9 @@ from reports.wording.words import baseline_words, instant, quantity_words
 _LINES = (("radius", "x"), ("radius", "phi"), ("sector_flow_rate", "phi"))
 _SYMBOLS = {"radius": "$R$", "sector_flow_rate": r"$q_\varphi$"}
 _TURN = (0.0, 90.0, 180.0, 270.0, 360.0)
+_UNSURE = (
+    "±: the most that the 3D mesh leaves open, its uncertainty in both variants; less is not told from none."
+)
 _FOLLOWED = ("pressure", "radius", "section_flow_rate", "sector_flow_share")
 
 
@@ -91,12 +95,23 @@ def _sentence(comparison: Comparison, variant: str) -> str:
     return (
         f"{comparison.titles[variant]}: how far its change in 2D is from its change in 3D, over the latter "
         f"(RMS; 100{SPACE}% is no better than to expect no change): {'; '.join(parts)}."
+        + _open(comparison, variant)
     )
+
+
+def _open(comparison: Comparison, variant: str) -> str:
+    """Say what the 3D mesh leaves open of these shares; "" where no coarser mesh tells."""
+    said = [
+        f"{quantity_words(quantity)} ±{SPACE}{unsigned(percent(found, 0))}"
+        for quantity in _FOLLOWED
+        if (found := change_uncertainty.of_field(comparison, variant, quantity)) is not None
+    ]
+    return f" The 3D mesh leaves open of them at most {listed(said)}." if said else ""
 
 
 def _table(comparison: Comparison) -> Table | None:
     """Return what calcification changes of the numbers of the cycle, in 3D and in each model."""
-    rows = []
+    rows, known, count = [], False, len(sides(comparison))
     for quantity in of_cycle():
         unit, factor = DIFFERENCE_UNITS.get(FIELDS[quantity].unit, (FIELDS[quantity].unit, 1.0))
         found = [
@@ -107,7 +122,13 @@ def _table(comparison: Comparison) -> Table | None:
         ]
         if unit != "ms" and any(value is not None for value in found):
             decimals = decimals_for(found, 3, most=3)
-            rows.append((quantity_words(quantity), unit, *(plus(fixed(value, decimals)) for value in found)))
+            texts = [plus(fixed(value, decimals)) for value in found]
+            for number, name in enumerate(comparison.changed):
+                unsure = change_uncertainty.of_cycle(comparison, name, quantity)
+                if unsure is not None:
+                    known = True
+                    texts[number * count] += f" ±{SPACE}{fixed(factor * unsure, decimals)}"
+            rows.append((quantity_words(quantity), unit, *texts))
     if not rows:
         return None
     columns = [
@@ -115,7 +136,8 @@ def _table(comparison: Comparison) -> Table | None:
     ]
     return Table(
         "moved-table",
-        f"What calcification changes of the cycle: variant minus {baseline_words(comparison)}.",
+        f"What calcification changes of the cycle: variant minus {baseline_words(comparison)}."
+        + (f" {_UNSURE}" if known else ""),
         (Column("quantity", "prose"), Column("unit"), *columns),
         tuple(rows),
     )
