@@ -16,7 +16,7 @@ from reports.figures.lumen_cells import edges_of, runs
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.66, 0.10, 0.46, 0.36
 _HEIGHT, _GAP = 1.06, 0.44  # inches: of the panels, and below them for their abscissas
-_LOW, _MANY = 0.84, 6  # the height where more rows than so many share a page
+_LOW, _MANY = 0.84, 3  # the height where more rows than so many share a page
 _CLOSE = 0.14  # below panels whose abscissas stand below the next row
 
 

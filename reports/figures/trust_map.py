@@ -58,7 +58,8 @@ def trust_map(
     for row in rows:
         words = tuple(_words(values) for values in row.panels)
         corners = tuple(
-            "" if word else _share(values) for word, values in zip(words, row.panels, strict=True)
+            "" if word else f"{inside_words(values)} inside"
+            for word, values in zip(words, row.panels, strict=True)
         )
         maps = Maps(row.panels, "error ÷ limit", scale=scale, words=words, corners=corners, threshold=1.0)
         drawn.append(MapRow(row.label, (maps,)))
@@ -76,10 +77,10 @@ def _words(values: Floats) -> str:
     return f"{'inside' if found <= 1 else 'outside'} everywhere\n{found:.2g} × the limit"
 
 
-def _share(values: Floats) -> str:
+def inside_words(values: Floats) -> str:
     """Share of the stated cells that is inside; neither 0 % nor 100 % by rounding alone."""
     known = values[np.isfinite(values)]
     share = 100 * float((known <= 1).mean())
     if 0 < share < 0.5:
-        return "< 1 % inside"
-    return f"{'> 99' if 99.5 <= share < 100 else f'{share:.0f}'} % inside"
+        return "< 1 %"
+    return f"{'> 99' if 99.5 <= share < 100 else f'{share:.0f}'} %"

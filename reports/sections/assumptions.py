@@ -7,10 +7,11 @@ from cases.statistics import BUDGET, PLACED
 from reports.blocks import Column, Table, numbers, prose
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
-from reports.sections.dominance import AZIMUTHAL, RADIAL, RATIOS, ratio
+from reports.sections.dominance import AZIMUTHAL, RADIAL, RATIOS, largest_inside, ratio
 from reports.sections.parts.models import headed
+from reports.sections.parts.places import row_place
 from reports.wording.numbers import ABSENT, percent, rounded, share, with_unit
-from reports.wording.words import field_of, place, quantity_words, statistic_words
+from reports.wording.words import field_of, quantity_words, statistic_words
 
 _BY_CELL_AND_STATE = ("plane_integral", "prescribed_inflow")
 _WITH_TABLES = ("bias_low", "bias_high", "change_rms", "cost")  # statistics that have tables of their own
@@ -19,7 +20,7 @@ _WITH_TABLES = ("bias_low", "bias_high", "change_rms", "cost")  # statistics tha
 def further_figures(comparison: Comparison, placed: frozenset[str]) -> Table | None:
     """Return the rows of other statistics, and the largest values of quantities that are not `placed`."""
     rows = tuple(
-        _further(row)
+        _further(comparison, row)
         for row in comparison.metrics.rows
         if not row.status
         and not row.inflow
@@ -40,7 +41,7 @@ def further_figures(comparison: Comparison, placed: frozenset[str]) -> Table | N
     )
 
 
-def _further(row: MetricRow) -> tuple[str, ...]:
+def _further(comparison: Comparison, row: MetricRow) -> tuple[str, ...]:
     field = field_of(row.quantity, row.unit)
     shown = field if row.unit == field.unit else field_of("", row.unit)  # a ratio has no unit
 
@@ -49,7 +50,7 @@ def _further(row: MetricRow) -> tuple[str, ...]:
         return with_unit(text, shown.display_unit)
 
     texts = (quantity_words(row.quantity), statistic_words(row.statistic), value(row.reference))
-    return (row.variant, *texts, value(row.rom), percent(row.error), place(row) or ABSENT)
+    return (row.variant, *texts, value(row.rom), percent(row.error), row_place(comparison, row) or ABSENT)
 
 
 _PLACED = frozenset({*RATIOS, "axis_velocity_spread", "mass_defect", "backflow_fraction"})
@@ -62,6 +63,18 @@ def _largest(quantity: str, words: Callable[[float | None], str] = share) -> Fig
         three = comparison.metrics.largest_row(variant, quantity, "reference")
         two = comparison.metrics.largest_row(variant, quantity, "rom")
         return words(three.reference if three else None), words(two.rom if two else None)
+
+    return figures
+
+
+def _dominance(quantity: str) -> Figures:
+    """Of 3D before the outlet's cells, which its condition makes."""
+    of_all = _largest(quantity, ratio)
+
+    def figures(comparison: Comparison, variant: str) -> tuple[str, str]:
+        three, two = of_all(comparison, variant)
+        inside = largest_inside(comparison, quantity, variant)
+        return three if inside is None else ratio(inside[0]), two
 
     return figures
 
@@ -80,8 +93,8 @@ _ASSUMPTIONS: tuple[tuple[str, str, Figures], ...] = (
     ),
     ("mass is conserved", "inflow − outflow − change of volume, over the inflow", _largest("mass_defect")),
     ("the blood flows forward", "share of points off the wall with v_x ≤ 0", _largest("backflow_fraction")),
-    ("no radial velocity", "|v_r|/v_x", _largest(RADIAL, ratio)),
-    ("no azimuthal velocity", "|v_φ|/v_x", _largest(AZIMUTHAL, ratio)),
+    ("no radial velocity", "|v_r|/v_x", _dominance(RADIAL)),
+    ("no azimuthal velocity", "|v_φ|/v_x", _dominance(AZIMUTHAL)),
     (
         "the pressure is uniform over a section",
         "range over φ of the pressure that is averaged along each ray",
@@ -98,7 +111,8 @@ def section(comparison: Comparison) -> Blocks:
         Table(
             "assumption-figures",
             "What the 2D model assumes of the flow, and how far each model is from it: the largest "
-            f"figures over the artery and the cycle. {ABSENT}: the model has none by construction, or it "
+            "figures over the artery and the cycle, of ratios in 3D before the outlet's cells. "
+            f"{ABSENT}: the model has none by construction, or it "
             "was not measured.",
             (
                 *prose("assumption", "measured by"),

@@ -24,6 +24,12 @@ _COLUMNS = {
     "shared_inputs": "shared inputs",
     "uncertainty": "all uncertain",
 }
+_READ = (
+    "Root mean squares over all cells and states, or sizes of a number of the cycle, relative to 3D. What is "
+    "uncertain counts with its factor of safety; the model is off by the error with the same inflow ± all "
+    "that is uncertain and known; inputs that both models share change both and do not "
+    "count. Orders are observed: of the 3D mesh, the 2D grid and the 2D time step."
+)
 _BARS = ("error", "inflow", "matched", "mesh", "grid", "inputs")
 
 
@@ -57,11 +63,7 @@ def _table(comparison: Comparison, number: int, variant: str) -> Table:
     )
     return Table(
         f"budget-{number}",
-        f"Variant {variant}: root mean square over all cells and states, or size of a number of the cycle, "
-        "relative to 3D. What is uncertain counts with its factor of safety; the model's error lies in the "
-        "interval of the error with the same inflow ± all that is uncertain and known; inputs that both "
-        f"models share change both and do not count. {ABSENT}: not known. "
-        "Orders are observed: of the 3D mesh, the 2D grid and the 2D time step.",
+        f"Variant {variant}: parts of the error, relative to 3D. {ABSENT}: not known.",
         (
             Column("quantity", "prose"),
             *(Column(_COLUMNS[part], "number") for part in parts),
@@ -165,6 +167,8 @@ def section(comparison: Comparison) -> Blocks:
 @declared("budget-tables", "Error budget, in numbers", appendix=True)
 @of_each_model
 def tables(comparison: Comparison) -> Blocks:
-    """Return a table a variant."""
+    """Return how to read the tables, and one a variant."""
     shown = [name for name in comparison.variants if budgets(comparison, name)]
-    return tuple(_table(comparison, k, name) for k, name in enumerate(shown, start=1))
+    if not shown:
+        return ()
+    return (Paragraph(_READ), *(_table(comparison, k, name) for k, name in enumerate(shown, start=1)))

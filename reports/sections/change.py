@@ -12,6 +12,7 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts import pooled
 from reports.sections.parts.cells import cell_tables
+from reports.sections.parts.places import row_place
 from reports.wording.numbers import (
     DIFFERENCE_UNITS,
     SPACE,
@@ -22,7 +23,7 @@ from reports.wording.numbers import (
     plus,
     with_unit,
 )
-from reports.wording.words import baseline_words, field_of, instant, place
+from reports.wording.words import baseline_words, field_of, instant
 
 _CELL_QUANTITIES = ("pressure", "radius", "sector_flow_rate")
 _NOTICEABLE = 1e-3  # changes below this share of the baseline's own value are not read as a change
@@ -154,7 +155,7 @@ def _largest(comparison: Comparison, variant: str, quantity: str) -> str:
     unit, factor = DIFFERENCE_UNITS[field.unit]
     decimals = decimals_for(_both(row, factor), 3, most=3)
     three, two = (with_unit(plus(fixed(n, decimals)), unit) for n in _both(row, factor))
-    return f"{field.label} {three} in 3D and {two} in 2D (at {place(row)})"
+    return f"{field.label} {three} in 3D and {two} in 2D (at {row_place(comparison, row)})"
 
 
 def _noticeable(change: float, value: float) -> bool:
@@ -203,16 +204,15 @@ def _values(comparison: Comparison) -> Subsection:
     tables = cell_tables(
         comparison,
         "section-flow",
-        "Flow rate through the section at cell i; 3D beside 2D",
+        "Flow rate through the section; 3D beside 2D",
         "section_flow_rate",
         "value",
         comparison.variants,
     ) + cell_tables(
         comparison,
         "sector-flow",
-        f"Flow rate through one sector (one of {comparison.n_phi} around the artery) at cells (i, j), for "
-        "variants whose wall differs around the artery: rows j that differ mean that flow crosses between "
-        "rows",
+        f"Flow rate through one sector (one of {comparison.n_phi} around the artery), for variants whose "
+        "wall differs around the artery: values that differ around it mean that flow crosses between rows",
         "sector_flow_rate",
         "value",
         around,

@@ -33,7 +33,7 @@ def _subtitle(comparison: Comparison) -> str:
     said = []
     for model in comparison.models:
         facts = comparison.of(model).settings(comparison.variants[0]).facts()
-        words = {"wall_law": "wall {}", "pressure": "a pressure a {}"}
+        words = {"wall_law": "wall law {}", "pressure": "one pressure in each {}"}
         told = ", ".join(text.format(facts[key]) for key, text in words.items() if key in facts)
         said.append(f"{model} ({told})" if told else model)
     return f"Two-dimensional reduced-order models of the artery (2D) {against} They are {listed(said)}."

@@ -10,10 +10,9 @@ from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.grids import GridPanel, GridRow, grid_figure
-from reports.sections.parts.places import place_words, probe_words
+from reports.sections.parts.places import degrees_words, place_words, probe_words
 from reports.sections.parts.stated import anywhere, left_out
 from reports.wording.numbers import listed
-from reports.wording.words import row_heading
 
 _SYMBOLS = {
     "pressure": "$P$",
@@ -21,6 +20,7 @@ _SYMBOLS = {
     "sector_flow_rate": r"$q_\varphi$",
     "section_flow_rate": "$q$",
 }
+_MOST_ROWS = 6  # of one figure; more are two of half as many, that each find room on a page
 _OF_ROWS, _OF_SECTIONS = ("radius", "sector_flow_rate"), ("section_flow_rate",)
 
 
@@ -42,35 +42,42 @@ def _rows(comparison: Comparison, variant: str, columns: Sequence[int]) -> list[
             for i in columns
         )
         if any(anywhere(panel.values(comparison, "reference")) for panel in panels):
-            place = "section" if j is None else row_heading(comparison, j)
+            place = "section" if j is None else f"φ = {degrees_words(comparison, j)}"
             rows.append(GridRow(FIELDS[quantity], _SYMBOLS[quantity], place, panels))
     return rows
 
 
 def _figures(comparison: Comparison, number: int, variant: str) -> list[Figure]:
-    time = comparison.fields["time"].values.astype(float)
-    figures = []
-    for columns in chunks(comparison.i):
-        rows = _rows(comparison, variant, columns)
-        if not rows:
-            continue
-        what = listed(dict.fromkeys(row.field.label for row in rows))
-        where = listed(place_words(comparison, i) for i in columns)
-        figures.append(
-            grid_figure(
-                comparison,
-                (
-                    f"cycle-{number}-{columns[0]}",
-                    f"Variant {variant}: {what} over the cycle at the probes; each row has its own scale.",
-                    f"Curves of {what} over time in 3D and 2D, variant {variant}, at {where}.",
-                ),
-                ("time into the cycle (s)", time),
-                [probe_words(comparison, i) for i in columns],
-                rows,
-                from_zero=False,
-            )
-        )
-    return figures
+    return [
+        _figure(comparison, variant, columns, rows, f"cycle-{number}-{columns[0]}{f'-{part}' * (part > 1)}")
+        for columns in chunks(comparison.i)
+        for part, rows in enumerate(_in_parts(_rows(comparison, variant, columns)), start=1)
+    ]
+
+
+def _figure(
+    comparison: Comparison, variant: str, columns: Sequence[int], rows: Sequence[GridRow], key: str
+) -> Figure:
+    what = listed(dict.fromkeys(row.field.label for row in rows))
+    where = listed(place_words(comparison, i) for i in columns)
+    return grid_figure(
+        comparison,
+        (
+            key,
+            f"Variant {variant}: {what} over the cycle at the probes; each row has its own scale.",
+            f"Curves of {what} over time in 3D and 2D, variant {variant}, at {where}.",
+        ),
+        ("time into the cycle (s)", comparison.fields["time"].values.astype(float)),
+        [probe_words(comparison, i) for i in columns],
+        rows,
+        from_zero=False,
+    )
+
+
+def _in_parts(rows: list[GridRow]) -> list[list[GridRow]]:
+    """All rows, or both halves of many; none of none."""
+    half = -(-len(rows) // 2)
+    return [part for part in ([rows] if len(rows) <= _MOST_ROWS else [rows[:half], rows[half:]]) if part]
 
 
 @declared("cycle", "Over the cycle at the probes", appendix=True)

@@ -13,10 +13,9 @@ from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts.cells import chunks
 from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import columns_of, headed, sides
-from reports.sections.parts.places import place_words
+from reports.sections.parts.places import degrees_words, place_words, row_place
 from reports.sections.parts.stated import mostly
 from reports.wording.numbers import ABSENT, SPACE, fixed, listed
-from reports.wording.words import place
 
 RADIAL, AZIMUTHAL = "axial_dominance_radial", "axial_dominance_azimuthal"
 RATIOS = {RADIAL: "|v_r|/v_x", AZIMUTHAL: "|v_φ|/v_x"}
@@ -40,25 +39,28 @@ def _dominance_tables(comparison: Comparison, quantity: str, model: str = "3D") 
 
     tables = []
     for cells in chunks(comparison.i):
-        rows = [
-            (variant, str(j), *(ratio(value(row)) for row in found))
+        lines = {
+            (variant, j): [comparison.metrics.find(variant, quantity, "value", i, j) for i in cells]
             for variant in comparison.variants
             for j in comparison.rows_of(variant)
-            for found in ([comparison.metrics.find(variant, quantity, "value", i, j) for i in cells],)
-            if any(value(row) is not None for row in found)
-        ]
-        if rows:
+        }
+        lines = {at: of for at, of in lines.items() if any(value(row) is not None for row in of)}
+        if lines:
             columns = (
                 Column("variant"),
-                Column("j", "number"),
-                *(Column(f"i = {i}", "number") for i in cells),
+                Column("φ", "number"),
+                *(Column(place_words(comparison, i), "number") for i in cells),
             )
             marked = frozenset(
                 (number, 2 + column)
-                for number, (variant, j, *_) in enumerate(rows)
+                for number, (variant, j) in enumerate(lines)
                 for column, i in enumerate(cells)
-                if comparison.calcified(variant, i, int(j))
+                if comparison.calcified(variant, i, j)
             )
+            rows = [
+                (variant, degrees_words(comparison, j), *(ratio(value(row)) for row in of))
+                for (variant, j), of in lines.items()
+            ]
             caption = (
                 f"Largest {RATIOS[quantity]} of {model} over the ray and the cycle at the shown cells."
                 + (" Shaded: inside the calcification." if marked else "")
@@ -80,7 +82,7 @@ def _largest_table(comparison: Comparison) -> Table | None:
         found = [comparison.metrics.largest_row(variant, *which) for which in shown]
         if any(found):
             texts = (
-                (ratio(getattr(row, model)), place(row)) if row else (ABSENT, ABSENT)
+                (ratio(getattr(row, model)), row_place(comparison, row)) if row else (ABSENT, ABSENT)
                 for row, (_, model) in zip(found, shown, strict=True)
             )
             rows.append((variant, *(text for pair in texts for text in pair)))
@@ -90,16 +92,36 @@ def _largest_table(comparison: Comparison) -> Table | None:
     for quantity, model in shown:
         words = f"{RATIOS[quantity]} of {_MODELS[model]}"
         columns += [Column("largest", "number", words), Column("at", "text", words)]
-    caption = "The largest ratios over all cells, and where they are."
+    caption = "The largest ratios over all cells, those at the outlet among them, and where they are."
     return Table("largest-dominance", caption, tuple(columns), tuple(rows))
 
 
-def _largest_inside(comparison: Comparison, quantity: str) -> tuple[float, str, int, int] | None:
-    """Largest ratio of 3D before the last cell with its variant and cell, counted from 1; None if unknown."""
+def outlet_cells(comparison: Comparison) -> int:
+    """How many cells 3D's |v_r|/v_x rises over towards the outlet, in every variant; 1 or more.
+
+    The outlet's condition makes that rise, not the flow: it is no longer than the lumen's radius.
+    """
+    name = f"reference_{RADIAL}"
+    if name not in comparison.fields:
+        return 1
+    along = np.nan_to_num(comparison.fields[name].values.astype(float)).max(axis=-1)  # (variant, x)
+    rises = (np.diff(along) > 0).all(axis=0)[::-1]  # from each cell to the next, in every variant
+    steps = int(rises.argmin()) if not rises.all() else rises.size
+    x = comparison.fields["x"].values
+    radius = float(np.mean(comparison.fields["rom_radius"].values))
+    return max(1, min(steps, int((x > x[-1] - radius).sum())))
+
+
+def largest_inside(
+    comparison: Comparison, quantity: str, variant: str = ""
+) -> tuple[float, str, int, int] | None:
+    """Largest ratio of 3D before the outlet's cells, of one variant or all, with variant and cell."""
     name = f"reference_{quantity}"
     if name not in comparison.fields:
         return None
-    values = comparison.fields[name].values.astype(float)[:, :-1]
+    values = comparison.fields[name].values.astype(float)[:, : -outlet_cells(comparison)]
+    if variant:
+        values = np.where(np.equal(comparison.variants, variant)[:, None, None], values, np.nan)
     if not np.isfinite(values).any():
         return None
     at = np.unravel_index(int(np.nanargmax(values)), values.shape)
@@ -110,7 +132,7 @@ def _dominance_sentence(comparison: Comparison) -> str:
     opening = (
         "The 2D model neglects the radial velocity v_r and the azimuthal velocity v_φ beside the axial v_x. "
     )
-    found = {quantity: of for quantity in RATIOS if (of := _largest_inside(comparison, quantity))}
+    found = {quantity: of for quantity in RATIOS if (of := largest_inside(comparison, quantity))}
     if not found:
         return f"{opening}How small they are in 3D was not measured."
     quantity, (largest, variant, i, j) = max(found.items(), key=lambda item: item[1][0])
@@ -157,6 +179,12 @@ def _maps(comparison: Comparison, variant: str, model: str) -> Floats:
     return np.asarray(comparison.fields[f"{model}_{RADIAL}"].sel(variant=variant).values, dtype=float)
 
 
+def _left_out(comparison: Comparison) -> str:
+    count = outlet_cells(comparison)
+    cells = "The last cell is" if count == 1 else f"The last {count} cells are"
+    return f"{cells} left out: the outlet's condition makes what is there."
+
+
 def _figure(comparison: Comparison) -> Figure:
     lines = [
         (words, [_maps(view, name, model) for name in comparison.variants])
@@ -167,8 +195,7 @@ def _figure(comparison: Comparison) -> Figure:
     of_2d = " and as it follows from 2D" if len(lines) > 1 else ""
     return Figure(
         "dominance-figure",
-        f"Largest {RATIOS[RADIAL]} over the ray and the cycle, in 3D{of_2d}. The last cell is left out: the "
-        "outlet's condition makes what is there.",
+        f"Largest {RATIOS[RADIAL]} over the ray and the cycle, in 3D{of_2d}. {_left_out(comparison)}",
         f"Maps over x and φ of the largest {RATIOS[RADIAL]} in 3D{of_2d} for {listed(comparison.variants)}.",
         partial(
             dominance_map,
@@ -178,6 +205,7 @@ def _figure(comparison: Comparison) -> Figure:
             lines,
             fields["calcified"].values > 0,
             label="$|v_r|/v_x$",
+            outlet_columns=outlet_cells(comparison),
         ),
         cells_table(
             comparison,

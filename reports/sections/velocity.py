@@ -13,11 +13,11 @@ from reports.sections.parts.cells import chunks
 from reports.sections.parts.grids import GridPanel, GridRow, grid_figure
 from reports.sections.parts.models import headed
 from reports.sections.parts.page_data import all_models
-from reports.sections.parts.places import place_words, probe_words, shown_cell
+from reports.sections.parts.places import around_words, place_words, probe_words, shown_cell
 from reports.sections.parts.sections_figure import sections_figure
 from reports.sections.parts.stated import anywhere, stated_variants
 from reports.wording.numbers import SPACE, listed, signed, with_unit
-from reports.wording.words import instant, row_heading
+from reports.wording.words import instant
 
 _FIELD = FIELDS["axial_velocity"]
 
@@ -61,7 +61,7 @@ def figures(comparison: Comparison, variants: list[str]) -> list[Figure]:
     j = shown_cell(comparison)[1]
     when = instant(*comparison.times[0])
     farthest = _farthest(comparison, variants, 0)
-    where = row_heading(comparison, j)
+    where = around_words(comparison, j)
     caption = (
         f"Axial velocity from the axis (r/R{SPACE}={SPACE}0) to the wall at {where}, at {when}. "
         f"Farthest from 3D at all probes: {farthest}."

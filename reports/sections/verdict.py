@@ -7,8 +7,9 @@ from reports.blocks import Block, Bullets, Column, Paragraph, Table, numbers, pr
 from reports.result.load import Comparison
 from reports.sections.declaration import Blocks, declared, of_each_model
 from reports.sections.parts import error_budget, pooled, trust
+from reports.sections.parts.places import row_place
 from reports.wording.numbers import ABSENT, counted, listed, rounded, share
-from reports.wording.words import error_text, limit, place, quantity_words, statistic_words
+from reports.wording.words import error_text, limit, quantity_words, statistic_words
 
 _ORDER = {"FAIL": 0, "MISSING": 1, "OK": 2}
 
@@ -61,7 +62,7 @@ def worst(comparison: Comparison) -> str:
     if not judged:
         return ""
     row = max(judged, key=lambda r: r.ratio)
-    where = place(row)
+    where = row_place(comparison, row)
     opening = "Furthest beyond its limit" if row.status == "FAIL" else "Nearest to its limit"
     return (
         f"{opening}: {statistic_words(row.statistic)} of {quantity_words(row.quantity)} in variant "
@@ -177,7 +178,8 @@ def _band_table(comparison: Comparison) -> Table:
             row.variant,
             row.status,
             quantity_words(row.quantity),
-            statistic_words(row.statistic) + (f" ({place(row)})" if place(row) else ""),
+            statistic_words(row.statistic)
+            + (f" ({row_place(comparison, row)})" if row_place(comparison, row) else ""),
             error_text(row),
             limit(row),
             rounded(row.ratio, 2) if row.error is not None else ABSENT,

@@ -1,7 +1,5 @@
 """Words for quantities, statistics and cells in a report."""
 
-import math
-
 from cases.fields import FIELDS, Field
 from cases.results.metric_row import MetricRow
 from cases.statistics import statistic_of
@@ -57,19 +55,6 @@ def error_text(row: MetricRow) -> str:
     return text
 
 
-def spot(i: int | None, j: int | None, t_s: float | None) -> str:
-    """Say where and when, e.g. "i = 61, j = 25, t = 0.090 s", with no line break inside an equation."""
-    parts = [f"{name}{SPACE}={SPACE}{number}" for name, number in (("i", i), ("j", j)) if number is not None]
-    if t_s is not None:
-        parts.append(f"t{SPACE}={SPACE}{t_s:.3f}{SPACE}s")
-    return ", ".join(parts)
-
-
-def place(row: MetricRow) -> str:
-    """Say where and when a figure was taken."""
-    return spot(row.i, row.j, row.t_s)
-
-
 def baseline_words(comparison: Comparison) -> str:
     """Name the variant that changes are counted from, or each of several with the variants it is for."""
     names = list(dict.fromkeys(comparison.baselines[name] for name in comparison.changed))
@@ -79,12 +64,6 @@ def baseline_words(comparison: Comparison) -> str:
         f"{base} (for {listed(name for name in comparison.changed if comparison.baselines[name] == base)})"
         for base in names
     )
-
-
-def row_heading(comparison: Comparison, j: int) -> str:
-    """E.g. "j = 25, φ = 184°"."""
-    phi = comparison.phi[comparison.j.index(j)]
-    return f"j = {j}, φ = {math.degrees(phi):.0f}°"
 
 
 def instant(name: str, t_s: float) -> str:

@@ -15,6 +15,7 @@ import xarray as xr
 
 from cases.fields import FIELDS
 from cases.statistics import STATISTICS
+from reports.figures.trust_map import inside_words
 
 Rows = list[dict[str, Any]]
 Finished = tuple[Path, Rows]
@@ -199,7 +200,8 @@ def test_the_map_tells_the_share_of_the_wall_inside_every_limit(
         for model in MODELS:
             worst = np.max([of for place, of in over_limits.items() if place[:2] == (variant, model)], axis=0)
             inside = float((worst <= 1).mean())
-            texts.append(f"{model} {100 * inside:.2f} %" if inside else f"{model} 0 %")
+            texts.append(f"{model} {inside_words(worst)}")
+            assert inside == pytest.approx(float(re.findall(r"\d+", texts[-1])[-1]) / 100, abs=0.01)
         assert f"{variant}: {' and '.join(texts)}" in said
 
 

@@ -169,7 +169,7 @@ def test_the_budgets_claims_are_those_of_the_metrics(captions: list[str], two_mo
 
 
 def test_dominance_says_the_largest_ratio_before_the_outlet(text: str, data: xr.Dataset) -> None:
-    said = re.search(rf"\|v_r\|/v_x = ([\d.]+), is in variant (\w+) at {PLACE}", text)
+    said = re.search(rf"\|v ?r ?\|/v ?x = ([\d.]+), is in variant (\w+) at {PLACE}", text)
     assert said
     ratios = data["reference_axial_dominance_radial"].isel(x=slice(None, -1))
     assert float(said[1]) == pytest.approx(float(ratios.max()), abs=5.1e-4)

@@ -13,8 +13,9 @@ import xarray as xr
 
 from cases.fields import FIELDS
 from reports.blocks import Bullets, Figure, Paragraph, Section, Subsection, Table, Warnings
-from reports.result.load import load
+from reports.result.load import Comparison, load
 from reports.sections import answer, assumptions, change, cycle, provenance, velocity, verdict
+from reports.sections.parts.places import degrees_words, place_words
 
 Rows = list[dict[str, Any]]
 
@@ -246,6 +247,16 @@ def test_a_difference_is_shown_in_the_unit_of_its_quantity(tmp_path: Path, small
     assert table.rows[0][4:7] == ("1.25\u00a0kPa", "0.5\u00a0kPa", "2.5")
 
 
+def _section_at(comparison: Comparison, words: str) -> int:
+    """Number of the shown cell that "x = 7.6 mm" names."""
+    return next(i for i in comparison.i if place_words(comparison, i) == words)
+
+
+def _row_at(comparison: Comparison, words: str) -> int:
+    """Number of the shown row that "184°" names."""
+    return next(j for j in comparison.j if degrees_words(comparison, j) == words)
+
+
 @pytest.mark.parametrize(
     ("key", "quantity", "statistic", "factor", "has_row"),
     [
@@ -267,9 +278,9 @@ def test_cell_tables_hold_the_metrics(
     checked = 0
     for line in table.rows:
         t = times[line[1].split(" (")[0]]
-        j = int(line[2]) if has_row else None
+        j = _row_at(comparison, line[2]) if has_row else None
         for column, text in zip(table.columns[2 + has_row :], line[2 + has_row :], strict=True):
-            i = int(column.group.removeprefix("i = "))
+            i = _section_at(comparison, column.group)
             row = _find(rows, variant=line[0], quantity=quantity, statistic=statistic, i=i, j=j, t_s=t)
             value = factor * row["reference" if column.title == "3D" else "rom"]
             decimals = len(text.partition(".")[2])
@@ -311,9 +322,9 @@ def test_a_wall_that_is_the_same_all_around_shows_one_row(curves: Section) -> No
         key: dict.fromkeys((line["quantity"], line["row"]) for line in csv.DictReader(io.StringIO(of.csv)))
         for key, of in figures.items()
     }
-    alike = [("pressure", "j = 1, φ = 22°"), ("radius", "j = 1, φ = 22°"), ("section_flow_rate", "section")]
+    alike = [("pressure", "φ = 22°"), ("radius", "φ = 22°"), ("section_flow_rate", "section")]
     assert list(rows["cycle-1-1"]) == list(rows["cycle-2-1"]) == alike
-    both = [("radius", "sector_flow_rate"), ("j = 1, φ = 22°", "j = 4, φ = 158°")]
+    both = [("radius", "sector_flow_rate"), ("φ = 22°", "φ = 158°")]
     assert set(rows["cycle-3-1"]) == {*alike, *product(*both)}
     assert "flow rate through one sector" in figures["cycle-3-1"].caption
     assert "flow rate through one sector" not in figures["cycle-1-1"].caption
@@ -329,7 +340,7 @@ def test_a_figures_data_are_the_models_own(finished: tuple[Path, Rows], curves: 
         for row in rows[::7]:
             field = FIELDS[row["quantity"]]
             at = {"x": {"1": 0, "2": 5, "3": 11}[row["column"][0]]}
-            at |= {} if row["row"] == "section" else {"phi": int(row["row"][4]) - 1}
+            at |= {} if row["row"] == "section" else {"phi": {"22": 0, "158": 3}[row["row"][4:-1]]}
             for model, column in (("reference", "reference"), ("rom", "rom")):
                 curve = local[f"{model}_{field.name}"].isel(at)
                 there = curve.sel(time=float(row["time into the cycle (s)"]), method="nearest")
@@ -406,7 +417,7 @@ def test_rows_that_the_report_does_not_know_are_shown(tmp_path: Path, small: syn
     assert [row[3:5] for row in cycle_rows if row[0] == "wall shear stress"] == [("1.200", "1.500")]
     found = {row[1:3]: row[3:] for row in _table(assumptions.others(comparison), "further").rows}
     said = {key: tuple(text.replace("\u00a0", " ") for text in texts) for key, texts in found.items()}
-    assert said["wall shear stress", "largest"] == ("4.500 Pa", "—", "—", "i = 3, j = 2")
+    assert said["wall shear stress", "largest"] == ("4.500 Pa", "—", "—", "x = 3.1 mm, φ = 68°")
     assert said["lumen radius", "waveform correlation"] == ("—", "—", "+3.10 %", "—")
     pooled_rows = _table(verdict.section(comparison), "pooled").rows
     assert [row[6].replace("\u00a0", " ") for row in pooled_rows if row[1] == "lumen radius"] == ["58.0 μm"]
@@ -435,8 +446,8 @@ def test_cells_inside_the_calcification_are_marked(finished: tuple[Path, Rows]) 
     for number, row in enumerate(table.rows):
         for column, heading in enumerate(table.columns):
             if heading.kind == "number" and heading.group:
-                i = int(heading.group.removeprefix("i = "))
-                inside = comparison.calcified(row[0], i, int(row[2]))
+                i = _section_at(comparison, heading.group)
+                inside = comparison.calcified(row[0], i, _row_at(comparison, row[2]))
                 assert table.marks(number, column) == inside
     assert table.marked
 
@@ -462,3 +473,54 @@ def test_each_variant_has_its_own_verdict(finished: tuple[Path, Rows]) -> None:
         status = {row["status"] for row in rows if row["status"] and row["variant"] == variant}
         assert ("is not within what was declared" in text) == ("FAIL" in status)
         assert ("could not be judged" in text) == ("MISSING" in status)
+
+
+def test_many_rows_of_curves_are_two_figures(
+    finished: tuple[Path, Rows], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cycle, "_MOST_ROWS", 4)
+    figures = {figure.key: figure for figure in _blocks(cycle.section(load(finished[0])), Figure)}
+    assert list(figures) == ["cycle-1-1", "cycle-2-1", "cycle-3-1", "cycle-3-1-2"]
+    halves = [
+        list(dict.fromkeys((line["quantity"], line["row"]) for line in csv.DictReader(io.StringIO(of.csv))))
+        for key, of in figures.items()
+        if key.startswith("cycle-3")
+    ]
+    assert [len(half) for half in halves] == [3, 3]
+    assert not set(halves[0]) & set(halves[1])
+
+
+def test_notes_that_say_the_same_are_one(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    path = tmp_path / "provenance.json"
+    stated = json.loads(path.read_text())
+    stated["notes"] = [
+        "none, model row: two meshes",
+        "no colon",
+        "local, model row: two meshes",
+        "local: other",
+    ]
+    path.write_text(json.dumps(stated))
+    section = provenance.settings(load(tmp_path))
+    (notes,) = _blocks(section, Bullets)
+    assert notes.items == ("no colon", "none, model row; local, model row: two meshes", "local: other")
+    assert any(block.text.startswith("3 notes") for block in _blocks(section, Paragraph))
+
+
+def test_inputs_of_3d_stand_beside_those_of_the_case(tmp_path: Path, small: synthetic.Setup) -> None:
+    synthetic.write(tmp_path, small)
+    assert "inputs-of-both" not in [
+        table.key for table in _blocks(provenance.settings(load(tmp_path)), Table)
+    ]
+    path = tmp_path / "provenance.json"
+    stated = json.loads(path.read_text())
+    stated["variants"]["local"]["reference"]["inputs"] = [
+        {"name": "Young's modulus of Healthy", "unit": "Pa", "reference": 6e5, "case": 5e5},
+        {"name": "density of Healthy", "unit": "kg m-3", "reference": 1000.0, "case": None},
+    ]
+    path.write_text(json.dumps(stated))
+    table = _table(provenance.settings(load(tmp_path)), "inputs-of-both")
+    assert table.rows == (
+        ("Young's modulus of Healthy", "MPa", "0.6", "0.5"),
+        ("density of Healthy", "kg/m³", "1000", "—"),
+    )

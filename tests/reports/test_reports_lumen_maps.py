@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from cases.arrays import Floats
 from reports.figures import heat_maps as module
 from reports.figures.colour_scale import in_or_out, within_limit
+from reports.figures.colours import HATCH
 from reports.figures.dominance_map import dominance_map
 from reports.figures.limit_maps import LimitRow, limit_maps
 from reports.figures.lumen_cells import uniform
@@ -83,7 +84,7 @@ def test_limit_maps_hatch_only_what_is_beyond(figure: Draw) -> None:
     assert "−1.5 % everywhere\nbeyond ±1 %" in words(made)
     (values,) = _images(made)
     assert values == pytest.approx(RISING.T - 2.0)
-    strokes = line_data(made, "#ffffff")
+    strokes = line_data(made, HATCH)
     left, right = (made.axes[0].images[0].get_extent()[k] for k in (0, 1))
     first_inside = left + (right - left) * (RISING[:, 0] < 1.0).sum() / 15
     hatched = next(xy for xy in strokes if np.nanmin(xy[:, 0]) >= left - 1e-9)

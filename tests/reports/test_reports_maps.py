@@ -15,6 +15,7 @@ from reports.blocks import Figure, Paragraph, Section, Table
 from reports.figures.heat_maps import MapRow, Maps, heat_maps
 from reports.result.load import load
 from reports.sections import assumptions, dominance, exponents, maps
+from reports.sections.parts.places import degrees_words
 
 Rows = list[dict[str, Any]]
 
@@ -163,8 +164,9 @@ def test_dominance_tables_hold_the_metrics(finished: tuple[Path, Rows]) -> None:
         table = tables[f"{quantity.replace('_', '-')}-{comparison.i[0]}"]
         assert [row[0] for row in table.rows] == ["none", "axisymmetric", "local", "local"]
         for row in table.rows:
+            (j,) = (j for j in comparison.j if degrees_words(comparison, j) == row[1])
             for i, text in zip(comparison.i, row[2:], strict=True):
-                value = values[quantity, row[0], i, int(row[1])]
+                value = values[quantity, row[0], i, j]
                 assert _number(text) == pytest.approx(value, abs=5.001e-4)
     ratios = comparison.fields["reference_axial_dominance_radial"].values[:, :-1]  # the outlet's is no flow's
     sentence = dominance.section(comparison).blocks[0]
@@ -200,9 +202,32 @@ def test_where_the_2d_model_has_its_largest_radial_velocity(
     line = next(
         row for row in _tables(dominance.tables(comparison))["largest-dominance"].rows if row[0] == "local"
     )
-    assert [line[3], line[4].replace("\u00a0", " ")] == ["1.217", f"i = {i}, j = {j + 1}"]
+    assert [line[3], line[4].replace("\u00a0", " ")] == ["1.217", where]
     figures = _tables(assumptions.section(comparison))["assumption-figures"]
     assert next(row for row in figures.rows if row[0] == "no radial velocity")[-1] == "1.217"
+
+
+@pytest.mark.parametrize(
+    ("along", "cells"),
+    [
+        ((0.1, 0.3, 0.2, 0.05, 0.06, 0.1, 0.2), 3),  # rises from the fourth on
+        ((0.1, 0.3, 0.2, 0.05, 0.06, 0.2, 0.1), 1),
+        ((0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7), 3),  # no longer than a radius
+    ],
+)
+def test_what_the_outlets_condition_makes_is_left_out(
+    finished: tuple[Path, Rows], along: tuple[float, ...], cells: int
+) -> None:
+    comparison = load(finished[0])
+    fields = comparison.fields.isel(x=slice(0, 7)).assign_coords(x=1e-3 * np.arange(7.0))
+    name = "reference_axial_dominance_radial"
+    rising = fields[name] * 0 + xr.DataArray(np.array(along), dims="x")
+    radius = fields["rom_radius"] * 0 + 2.5e-3
+    changed = dataclasses.replace(comparison, fields=fields.assign({name: rising, "rom_radius": radius}))
+    assert dominance.outlet_cells(changed) == cells
+    found = dominance.largest_inside(changed, "axial_dominance_radial", "local")
+    assert found is not None
+    assert found[:2] == (pytest.approx(max(along[:-cells])), "local")
 
 
 def test_assumptions_are_those_of_both_models(finished: tuple[Path, Rows]) -> None:

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from cases.results.metric_row import MetricRow
 from reports.blocks import Column, Table
 from reports.result.load import Comparison
+from reports.sections.parts.places import degrees_words, place_words
 from reports.wording.numbers import DIFFERENCE_UNITS, decimals_for, fixed
 from reports.wording.words import field_of, instant
 
@@ -75,17 +76,19 @@ def cell_tables(
             if comparison.calcified(line[0], i, line[3])
             for model in (0, 1)
         )
-        heading = (Column("variant"), Column("time"), *(() if sections else (Column("j", "number"),)))
+        heading = (Column("variant"), Column("time"), *(() if sections else (Column("φ", "number"),)))
         body = tuple(
             (
                 line[0],
                 instant(line[1], line[2]),
-                *(() if sections else (str(line[3]),)),
+                *(() if sections else (degrees_words(comparison, line[3]),)),
                 *(text for i in cells for text in pair(found[line, i])),
             )
             for line in shown
         )
-        columns = tuple(Column(model, "number", f"i = {i}") for i in cells for model in ("3D", "2D"))
+        columns = tuple(
+            Column(model, "number", place_words(comparison, i)) for i in cells for model in ("3D", "2D")
+        )
         suffix = "" if len(comparison.i) <= _MOST_COLUMNS else f"-{cells[0]}"
         said = f"{caption}; in {unit}." + (f" Shaded: {mark}." if marked else "")
         tables.append(Table(f"{key}{suffix}", said, heading + columns, body, 0, marked, mark))

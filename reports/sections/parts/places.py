@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from cases.results.metric_row import MetricRow
 from reports.result.load import Comparison
 from reports.wording.numbers import SPACE, fixed
 
@@ -11,7 +12,25 @@ def place_words(comparison: Comparison, i: int, j: int | None = None) -> str:
     along = f"x{SPACE}={SPACE}{fixed(1e3 * float(comparison.fields['x'].values[i - 1]), 1)}{SPACE}mm"
     if j is None:
         return along
-    return f"{along}, φ{SPACE}={SPACE}{fixed(np.degrees(float(comparison.fields['phi'].values[j - 1])), 0)}°"
+    return f"{along}, {around_words(comparison, j)}"
+
+
+def degrees_words(comparison: Comparison, j: int | None) -> str:
+    """E.g. "184°"; "" for a whole section."""
+    return "" if j is None else f"{fixed(np.degrees(float(comparison.fields['phi'].values[j - 1])), 0)}°"
+
+
+def around_words(comparison: Comparison, j: int) -> str:
+    """E.g. "φ = 184°"."""
+    return f"φ{SPACE}={SPACE}{degrees_words(comparison, j)}"
+
+
+def row_place(comparison: Comparison, row: MetricRow) -> str:
+    """Say where and when a figure was taken, e.g. "x = 7.6 mm, φ = 184°, t = 0.090 s", or ""."""
+    parts = [] if row.i is None else [place_words(comparison, row.i, row.j)]
+    if row.t_s is not None:
+        parts.append(f"t{SPACE}={SPACE}{row.t_s:.3f}{SPACE}s")
+    return ", ".join(parts)
 
 
 def probe_words(comparison: Comparison, i: int) -> str:

@@ -3,10 +3,11 @@
 from collections.abc import Iterable
 
 from cases.results.metric_row import MetricRow
-from reports.blocks import Column, Table, numbers
+from reports.blocks import Column, Table, numbers, prose
 from reports.result.load import Comparison
+from reports.sections.parts.places import row_place
 from reports.wording.numbers import ABSENT, DIFFERENCE_UNITS, SPACE, percent, rounded, unsigned, with_unit
-from reports.wording.words import baseline_words, place, quantity_words
+from reports.wording.words import baseline_words, quantity_words
 
 _STATISTICS = ("bias", "scatter", "rms_error", "max_error")
 _ABSOLUTE = "rms_difference"
@@ -26,7 +27,7 @@ def table(comparison: Comparison) -> Table | None:
         for (name, quantity), by in found.items():
             if name == variant:
                 largest = by.get("max_error")
-                where = place(largest) if largest and not _round_off(largest) else ABSENT
+                where = row_place(comparison, largest) if largest and not _round_off(largest) else ABSENT
                 figures = _figures(by, _interval(comparison, variant, quantity))
                 lines.setdefault((variant, *figures), []).append((quantity_words(quantity), where))
     rows = tuple(
@@ -47,7 +48,7 @@ def table(comparison: Comparison) -> Table | None:
             Column("variant"),
             Column("quantity", "prose"),
             *numbers("bias", "its 95 %", "scatter", "RMS error", "RMS 2D − 3D", "largest error"),
-            Column("found at"),
+            *prose("found at"),
         ),
         rows,
         rule_by=0,

@@ -6,12 +6,12 @@ import numpy as np
 
 from cases.arrays import Floats
 from reports.blocks import Figure
-from reports.figures.trust_map import TrustRow, trust_map
+from reports.figures.trust_map import TrustRow, inside_words, trust_map
 from reports.result.load import Comparison
 from reports.sections.parts.limits import over_limit, worst_over_limits
 from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import columns_of, headed
-from reports.wording.numbers import listed, share
+from reports.wording.numbers import listed
 from reports.wording.words import quantity_words, statistic_words
 
 
@@ -49,8 +49,7 @@ def trust_figure(comparison: Comparison) -> Figure | None:
         return None
     fields = comparison.fields
     said = "; ".join(
-        f"{name}: "
-        f"{listed(f'{headed(comparison, m)} {share(float((ratios[m][k] <= 1).mean()))}' for m in ratios)}"
+        f"{name}: {listed(f'{headed(comparison, m)} {inside_words(ratios[m][k])}' for m in ratios)}"
         for k, name in enumerate(comparison.variants)
     )
     return Figure(
