@@ -11,7 +11,7 @@ from reports.result.load import Comparison
 from reports.sections.parts.limits import over_limit, worst_over_limits
 from reports.sections.parts.lumen import cells_table
 from reports.sections.parts.models import columns_of, headed
-from reports.wording.numbers import listed
+from reports.wording.numbers import SPACE, listed
 from reports.wording.words import quantity_words, statistic_words
 
 
@@ -51,7 +51,7 @@ def trust_figure(comparison: Comparison) -> Figure | None:
     said = "; ".join(
         f"{name}: {listed(f'{headed(comparison, m)} {inside_words(ratios[m][k])}' for m in ratios)}"
         for k, name in enumerate(comparison.variants)
-    )
+    ).replace(" %", f"{SPACE}%")
     return Figure(
         "trust-map",
         f"The artery unrolled: in each cell the largest error over its limit ({_mapped(comparison)}), blue "
