@@ -180,6 +180,17 @@ class TestResult:
         report = (finished[1] / "report.html").read_text(encoding="utf-8")
         assert "14.7\u00a0min" in report
 
+    def test_the_inputs_of_the_3d_run_are_told_beside_those_of_the_case(self, finished):
+        about = json.loads((finished[1] / "provenance.json").read_text(encoding="utf-8"))
+        reference = about["variants"]["local"]["reference"]
+        found = {item["name"]: (item["reference"], item["case"]) for item in reference["inputs"]}
+        assert found["Young's modulus of Healthy"] == (6e5, 6e5)
+        assert found["Young's modulus of Calcified"] == (1e7, 1e7)
+        assert found["viscosity of Blood"] == (0.0035, 0.0035)
+        assert found["density of Healthy"] == (1000.0, None)
+        assert "materials" not in reference
+        assert any("those that the case has are the same" in note for note in about["notes"])
+
     def test_data_records_confirm_the_plot_file(self, finished):
         about = json.loads((finished[1] / "provenance.json").read_text(encoding="utf-8"))
         records = about["variants"]["none"]["reference"]["data_records"]
