@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import synthetic_comparison as synthetic
 import xarray as xr
 from opened_page import NARROW, PRESS_EACH, WIDE, Opened, open_page, overflowing, serious_defects
 from playwright.sync_api import Browser, Page
@@ -378,18 +377,23 @@ def test_a_figures_smallest_letters_can_be_read_on_a_narrow_screen(narrow: Opene
     narrow.page.wait_for_function("document.querySelector('figure .card').scrollLeft > 0")
 
 
-def test_values_beside_each_other_tell_as_many_digits(opened: Opened) -> None:
+def test_values_beside_each_other_tell_as_many_digits(opened: Opened, finished: Finished) -> None:
     page = opened.page
     page.locator("#curves-anywhere").scroll_into_view_if_needed()
     _choose(page, "variant", "local")
     _choose(page, "quantity", "lumen radius")
     found = set()
-    for x in range(synthetic.Setup().n_x):
-        _set(page, "x", x)
-        page.wait_for_timeout(150)
-        said = page.locator("#curves-anywhere .readout").inner_text()
-        found |= set(re.findall(r"(?:3D|2D) ([\d.]+)\u00a0mm", said))
-    assert len(found) > 20
+    with _data(finished[0]) as data:
+        places = [(x, phi) for phi in (0, 3) for x in range(data.sizes["x"])]
+        for x, phi in places:
+            _set(page, "x", x)
+            _set(page, "φ", phi)
+            degrees = np.degrees(float(data["phi"][phi])) + 0.01
+            where = f"x = {1e3 * float(data['x'][x]):.1f} mm, φ = {degrees:.0f}°"
+            _await_words(page, "curves-anywhere", where)
+            said = page.locator("#curves-anywhere .readout").inner_text()
+            found |= set(re.findall(r"(?:3D|2D) ([\d.]+)\u00a0mm", said))
+    assert len(found) >= 10
     assert {len(text) for text in found} == {len("2.633")}
 
 

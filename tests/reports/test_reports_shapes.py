@@ -94,7 +94,7 @@ def test_a_model_alone_is_called_2d_and_several_by_their_names(tmp_path: Path) -
         content = _report(tmp_path / str(len(models)), models)
         table = next(b for b in _section(content, "answer").blocks if isinstance(b, Table))
         assert {column.title for column in table.columns[1:]} == said
-        assert ("They are row (wall thick)" in content.subtitle) == (len(models) > 1)
+        assert ("They are row (wall law thick)" in content.subtitle) == (len(models) > 1)
         verdict = _section(content, "verdict").blocks
         titles = [part.title for part in verdict if isinstance(part, Subsection)]
         assert titles == ([f"2D model {model}" for model in models] if len(models) > 1 else [])
