@@ -152,3 +152,9 @@ def test_no_page_is_half_empty(again: tuple[bool, list[bytes]], reader: pypdf.Pd
         filled[number] = np.flatnonzero((body < 200).any(axis=1)).max() / body.shape[0]
     assert [n for n in range(1, appendix - 1) if filled[n] < 0.6] == [], filled
     assert [n for n in range(appendix, len(filled)) if filled[n] < 0.45] == [], filled
+
+
+def test_no_number_and_no_unit_is_torn(two_models: Finished, pdf_text: Callable[[Path], str]) -> None:
+    text = pdf_text(two_models[0] / "report.pdf")
+    assert re.findall(r"= \d+\.[\u200b ]+\d+ ?s", text) == []
+    assert re.findall(r"[cm]m[²³]?/[\u200b ]+s\b", text) == []
