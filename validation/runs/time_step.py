@@ -11,6 +11,7 @@ from cases.sections.solver import SemiImplicitSolver
 
 LONGEST = 8.0  # times the case's own step
 SECOND_ORDER = 4.0 / 3.0  # error of a step Δt, of the difference that half of it makes
+SAFETY = 1.25  # of Roache (1998): runs that are not among those that are tried may err by more
 SHORTER = 1.0 - 1e-9  # of a step: what is longer is the same one
 FASTEST = 2.0  # a step over the next one that is tried
 SAMPLE = 16  # runs by which a step is judged, at most
@@ -28,7 +29,8 @@ class Choice:
     time_step : float
         s.
     error : float
-        Largest error of any number over its scale; inf where a run fails or no number is known.
+        Largest error of any number over its scale, times `SAFETY`; inf where a run fails or no number is
+        known.
     worst : int
         Which number has it.
     """
@@ -55,7 +57,7 @@ def chosen(
 
     Steps divide the longest time between two states of the last cycle, on each of which one ends: all longer
     ones are the same. Half of a step makes a difference of ¾ of its error, for the scheme is of second order
-    in time; so the error of one step tells which shorter one is tried next.
+    in time; with a factor of safety the error of one step tells which shorter one is tried next.
 
     Parameters
     ----------
@@ -83,7 +85,7 @@ def chosen(
 
     def judged(step: float) -> Choice:
         fine = at(0.5 * step)
-        errors = SECOND_ORDER * _differences(at(step), fine) / scales(fine)
+        errors = SAFETY * SECOND_ORDER * _differences(at(step), fine) / scales(fine)
         worst = int(np.argmax(errors))
         return Choice(step, float(errors[worst]), worst)
 
