@@ -30,7 +30,7 @@ pytestmark = [
 SAMPLES = 36
 PARAMETERS = {"calcification.youngs_modulus": {"start": "1 MPa", "stop": "20 MPa", "count": SAMPLES}}
 SOLVER = {"n_x": 24, "n_phi": 16, "time_step": "2 ms"}
-PATIENCE = 60.0  # s
+PATIENCE = 150.0  # s: what waits for a worker that died may wait for several timeouts of 10 s
 
 
 @pytest.fixture(scope="module")

@@ -28,6 +28,7 @@ SETTINGS = {
     "distributed.scheduler.allowed-failures": 3,  # workers that may die with one task
     "distributed.admin.large-graph-warning-threshold": "1GiB",  # a reference travels once
     "distributed.comm.retry.count": 2,
+    "distributed.comm.timeouts.connect": CONNECT_WITHIN,  # a worker that died does not answer
     "distributed.worker.profile.enabled": False,  # it would take a share of every sample
 }
 
