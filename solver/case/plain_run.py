@@ -10,7 +10,6 @@ from solver.case.model import error_tolerance
 from solver.case.semi_implicit import azimuthal_flux_of
 from solver.case.start import initial_state
 from solver.geometry.symmetry import all_rows, fewer_rows
-from solver.marching.row_stepper import offsets
 from solver.marching.section_stepper import stepper_of
 from solver.marching.semi_implicit import equal_steps, implicitness
 from solver.marching.two_modes import mean_axis_velocity
@@ -54,9 +53,7 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
     for n, end in enumerate(times.tolist()):
         if n > 0:
             time_step, count = equal_steps(stepper.time, end, case.solver.time_step)
-            steps = stepper.time + time_step * np.arange(1, count + 1)
-            outlet = offsets(computed, steps)
-            stepper.take(computed.inlet.signal(steps), time_step, implicitness(time_step), outlet)
+            stepper.take_through(stepper.time, time_step, count, implicitness(time_step))
         stepper.time = end
         stepper.save(area[n], flow[n], pressure[n])
         if crossing is not None or axis is not None:

@@ -123,8 +123,18 @@ class Stepper:
 
         Returns and raises as :meth:`advance`.
         """
+        values, outlet_offsets = self._prescribed(begin, time_step, count)
+        return self.advance(values, time_step, theta, outlet_offsets)
+
+    def take_through(self, begin: float, time_step: float, count: int, theta: float) -> None:
+        """Take steps as :meth:`advance_through`, without the mass defect."""
+        values, outlet_offsets = self._prescribed(begin, time_step, count)
+        self.take(values, time_step, theta, outlet_offsets)
+
+    def _prescribed(self, begin: float, time_step: float, count: int) -> tuple[Floats, Floats]:
+        """What the inlet and the outlet prescribe at the end of each of ``count`` steps."""
         times = begin + time_step * np.arange(1, count + 1)
-        return self.advance(self.model.inlet.signal(times), time_step, theta, offsets(self.model, times))
+        return self.model.inlet.signal(times), offsets(self.model, times)
 
     def advance(
         self, inlet_values: Floats, time_step: float, theta: float, outlet_offsets: Floats | None = None
