@@ -44,7 +44,8 @@ def remarks(calibration: Calibration, wanted: Observed, found: Fit) -> list[str]
     """Sentences that say how sure the numbers are."""
     names = [parameter.key.name for parameter in calibration.parameters]
     told = [f"{found.runs} runs" + (f", {found.failed} of which failed on the way" if found.failed else "")]
-    told += [] if found.step is None else [words(found.step, wanted, calibration.error_tolerance)]
+    if found.step is not None and calibration.error_tolerance is not None:
+        told.append(words(found.step, wanted, calibration.error_tolerance))
     told += [
         f"errors of {names[a]} and {names[b]} are correlated: {found.correlation[a, b]:+.2f}"
         for a, b in zip(*np.triu_indices(len(names), 1), strict=True)

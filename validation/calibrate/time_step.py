@@ -12,7 +12,7 @@ from cases.reading.template import case_with
 from cases.sections.case import Case
 from solver.runs.batch import run_batch
 from validation.calibrate.targets import Observed
-from validation.runs.time_step import Choice, at_step, chosen, takes_equal_steps
+from validation.runs.time_step import Choice, at_step, choice_told, chosen, takes_equal_steps
 
 BESIDE = 3  # points besides that from which the search begins: more would cost what they save
 
@@ -62,14 +62,8 @@ def _some(calibration: Calibration) -> list[Case]:
     return found or [calibration.case]
 
 
-def words(step: StepOfRuns, wanted: Observed, limit: float | None) -> str:
-    """Say which step was chosen, and by what error; a warning where no step keeps the tolerance."""
-    choice, own = step.choice, f"{1e3 * step.own:.3g} ms"
-    if not np.isfinite(choice.error):
-        error = "a run fails"
-    else:
-        error = f"error {choice.error:.1e} of {wanted.names[choice.worst]}"
-    known = f"{error}, by halving on {step.runs} runs; error_tolerance: {limit:g}"
-    if limit is not None and choice.error > limit:
-        return f"warning: not even the case's own time step, {own}, keeps the tolerance ({known})"
-    return f"time step {1e3 * choice.time_step:.3g} ms ({known}; the case states {own})"
+def words(step: StepOfRuns, wanted: Observed, limit: float) -> str:
+    """Say which step was chosen, and by what error."""
+    choice = step.choice
+    error = choice.error, wanted.names[choice.worst]
+    return choice_told(choice.time_step, step.own, error, f"{step.runs} runs", limit)

@@ -106,3 +106,26 @@ def _differences(one: Floats, other: Floats) -> Floats:
     alone = np.isnan(one) != np.isnan(other)
     apart = np.where(alone, np.inf, np.nan_to_num(np.abs(one - other), nan=0.0))
     return np.where(np.isnan(one).all(), np.inf, apart.max(axis=0))
+
+
+def choice_told(time_step: float, own: float, error: tuple[float, str], tried: str, limit: float) -> str:
+    """Say which step was chosen, and by what error; a warning where no step keeps the tolerance.
+
+    Parameters
+    ----------
+    time_step, own : float
+        Chosen, and the case's, s.
+    error : (float, str)
+        As in :class:`Choice`, and the name of the number that has it.
+    tried : str
+        By what it is known: "16 samples".
+    limit : float
+        Largest error allowed, relative.
+    """
+    size, name = error
+    step, stated = (f"{1e3 * each:.3g} ms" for each in (time_step, own))
+    found = f"error {size:.1e} of {name}" if np.isfinite(size) else "a run fails"
+    known = f"{found}, by halving on {tried}; error_tolerance: {limit:g}"
+    if size > limit:
+        return f"warning: not even the case's own time step, {step}, keeps the tolerance ({known})"
+    return f"time step {step} ({known}; the case states {stated})"

@@ -9,7 +9,7 @@ from cases.arrays import Floats
 from cases.results.sweep import ChosenTimeStep
 from cases.sections.case import Case
 from validation.runs.reduced_model import run_times
-from validation.runs.time_step import SAMPLE, at_step, chosen, takes_equal_steps
+from validation.runs.time_step import SAMPLE, at_step, choice_told, chosen, takes_equal_steps
 from validation.sweep.chunk import Plan, Record
 from validation.sweep.outputs import SIZES, Output
 from validation.sweep.samples import Sample, Samples
@@ -87,15 +87,14 @@ def _scales(values: Floats, outputs: tuple[Output, ...]) -> Floats:
 
 
 def told(choices: Mapping[str, ChosenTimeStep], limit: float | None) -> list[str]:
-    """Say which steps were chosen, and by what error; a warning where no step keeps the tolerance."""
+    """Say which steps were chosen; nothing without a tolerance."""
+    if limit is None:
+        return []
     return [f"{name}: {words(choice, limit)}" for name, choice in choices.items()]
 
 
-def words(choice: ChosenTimeStep, limit: float | None) -> str:
+def words(choice: ChosenTimeStep, limit: float) -> str:
     """Say which step was chosen, and by what error."""
-    error = "a run fails" if choice.error is None else f"error {choice.error:.1e} of {choice.output}"
-    step, own = (f"{1e3 * each:.3g} ms" for each in (choice.time_step_s, choice.case_time_step_s))
-    known = f"{error}, by halving on {choice.samples} samples; error_tolerance: {limit:g}"
-    if choice.error is None or (limit is not None and choice.error > limit):
-        return f"warning: not even the case's own time step, {step}, keeps the tolerance ({known})"
-    return f"time step {step} ({known}; the case states {own})"
+    error = np.inf if choice.error is None else choice.error
+    steps = choice.time_step_s, choice.case_time_step_s
+    return choice_told(*steps, (error, choice.output), f"{choice.samples} samples", limit)
