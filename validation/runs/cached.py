@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 import numpy as np
+import xarray as xr
 
 from cases.sections.case import Case
 from validation.errors import ValidationError
@@ -58,6 +59,15 @@ def reference_key(case: Case, alignment: Alignment, rays: Rays) -> str:
     return key_of("reference", parts)
 
 
+def _key(key: str, along_rays: bool) -> str:
+    return key if along_rays else f"{key}-cells"
+
+
+def _kept_fields(fields: xr.Dataset, along_rays: bool) -> xr.Dataset:
+    """Fields as they are kept: packed, or without those along rays."""
+    return with_packed(fields) if along_rays else fields.drop_dims("y")
+
+
 def cached_reference(
     store: Cache | None,
     kind: ReferenceKind,
@@ -84,7 +94,7 @@ def cached_reference(
         )
 
     def packed(found: Reference) -> Entry:
-        fields = with_packed(found.fields) if along_rays else found.fields.drop_dims("y")
+        fields = _kept_fields(found.fields, along_rays)
         datasets = {"fields": fields, "checks": found.checks}
         facts = {
             "description": found.description,
@@ -97,7 +107,7 @@ def cached_reference(
 
     return _cached(
         store,
-        lambda: reference_key(case, alignment, rays) + ("" if along_rays else "-cells"),
+        lambda: _key(reference_key(case, alignment, rays), along_rays),
         lambda: kind.read(case, rays, progress, alignment),
         packed,
         unpacked,
@@ -130,13 +140,13 @@ def cached_rom(
         )
 
     def packed(found: ReducedModelRun) -> Entry:
-        fields = with_packed(found.fields) if along_rays else found.fields.drop_dims("y")
+        fields = _kept_fields(found.fields, along_rays)
         datasets = {"fields": fields, "wall": found.stiffness.to_dataset(name="wall_stiffness")}
         return Entry(datasets, {"cycle_change": found.cycle_change, "description": found.description})
 
     return _cached(
         store,
-        lambda: rom_key(case, alignment, rays) + ("" if along_rays else "-cells"),
+        lambda: _key(rom_key(case, alignment, rays), along_rays),
         computed,
         packed,
         unpacked,
