@@ -1,6 +1,5 @@
 """Loading a case file: YAML → base and variants → checked cases in SI units."""
 
-import hashlib
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,7 +13,7 @@ from cases.reading.models import ModelVariant, cells_apart, models_of
 from cases.reading.problems import problems_of
 from cases.reading.uncertain_numbers import uncertainty_problems
 from cases.reading.variants import merge_variant, overrides_of
-from cases.reading.yaml_nodes import Node, parse_yaml, read_text
+from cases.reading.yaml_nodes import Node, parse_yaml, read_with_checksum
 from cases.sections.base import Section
 from cases.sections.case import Case
 from cases.values.kinds import Context, Name, Words
@@ -110,7 +109,7 @@ def load_case_file(path: str | Path, results_exist: bool = True) -> CaseFile:
         line, key, what was found and what is allowed.
     """
     path = Path(path)
-    text, sha256 = read_text(path), hashlib.sha256(path.read_bytes()).hexdigest()
+    text, sha256 = read_with_checksum(path)
     root = parse_yaml(text, path)
     require_kind(root, path, "case")
     problems = unknown_keys(root, FILE_KEYS)

@@ -1,5 +1,6 @@
 """A YAML file as a tree whose every value knows its line and its key."""
 
+import hashlib
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -85,7 +86,12 @@ def join(key: str, *path: str | int) -> str:
 
 
 def read_text(path: Path) -> str:
-    """Read a case file's text.
+    """Read a case file's text; raises as :func:`read_with_checksum`."""
+    return read_with_checksum(path)[0]
+
+
+def read_with_checksum(path: Path) -> tuple[str, str]:
+    """Read a case file's text, and the SHA-256 of its bytes, hexadecimal.
 
     Raises
     ------
@@ -93,7 +99,8 @@ def read_text(path: Path) -> str:
         The file is missing, no regular file, not readable, far too large or not UTF-8.
     """
     try:
-        return read_file(path, LARGEST_FILE).decode("utf-8-sig")
+        content = read_file(path, LARGEST_FILE)
+        return content.decode("utf-8-sig"), hashlib.sha256(content).hexdigest()
     except UnreadableFileError as error:
         raise CaseFileError(path, f"{path}: {error}; allowed: a case file (.yaml)") from error
     except UnicodeDecodeError as error:

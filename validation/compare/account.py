@@ -16,7 +16,7 @@ from validation.compare.inputs import compared_inputs, differing
 from validation.metrics.confidence import SEED
 from validation.reference.alignment import WHOLE
 from validation.runs.instants import nearest_states, wanted_instants
-from validation.runs.provenance import provenance, shown_path
+from validation.runs.provenance import provenance
 
 Runs = Mapping[str, Mapping[str, VariantRun]]  # by variant and model
 
@@ -41,13 +41,13 @@ def notes_of(runs: Runs) -> list[str]:
         notes += [] if run.sources is None else run.sources.notes
     stated = ", ".join(f"{value:g}" for value in sorted({run.case.blood.viscosity for run in each.values()}))
     told = f"viscosity of the reduced model: {stated} Pa s"
-    inputs = [item for name, run in firsts.items() for item in _inputs(run)]
-    if not all(_inputs(run) for run in firsts.values()):
+    inputs = [_inputs(run) for run in firsts.values()]
+    if not all(inputs):
         told += "; that of the reference, its density and its wall's moduli are not compared with the case"
-    elif all(item["case"] is None for item in inputs):
+    elif all(item["case"] is None for items in inputs for item in items):
         told += "; the case has none of the inputs that the reference's log tells"
     else:
-        differ = dict.fromkeys(said for run in firsts.values() for said in differing(_inputs(run)))
+        differ = dict.fromkeys(said for items in inputs for said in differing(items))
         told += "; of the inputs that the reference's log tells "
         told += f"these differ: {'; '.join(differ)}" if differ else "those that the case has are the same"
     notes.append(told)
@@ -113,7 +113,6 @@ def described(
 ) -> Provenance:
     """Provenance of a finished comparison, with notes and warnings."""
     stated = {
-        "case": {"path": shown_path(file.path), "sha256": file.sha256},
         "seeds": {"bootstrap": SEED} | _seeds_of_inputs(file),
         "wall_times_s": wall_times,
         "notes": [*notes, *notes_of(runs)],
@@ -127,7 +126,8 @@ def described(
         },
         "bands": declared_bands(file.variants),
     }
-    return Provenance.model_validate(provenance(file.path, file.input_files, command) | stated, strict=False)
+    about = provenance(file.path, file.input_files, command, file.sha256)
+    return Provenance.model_validate(about | stated, strict=False)
 
 
 def _seeds_of_inputs(file: CaseFile) -> dict[str, int]:

@@ -61,7 +61,9 @@ def installed(name: str) -> str | None:
         return None
 
 
-def provenance(case: Path, inputs: Iterable[Path], command: list[str]) -> dict[str, Any]:
+def provenance(
+    case: Path, inputs: Iterable[Path], command: list[str], sha256: str | None = None
+) -> dict[str, Any]:
     """Describe this run: when, from what, with what, where.
 
     Parameters
@@ -72,6 +74,8 @@ def provenance(case: Path, inputs: Iterable[Path], command: list[str]) -> dict[s
         Other files that were read.
     command : list of str
         The command line that repeats the run.
+    sha256 : str, optional
+        Checksum of the case file when it was read; that of the file as it is now where it is not given.
     """
     listed = [
         {"path": shown_path(path), "sha256": checksum(path), "bytes": path.stat().st_size}
@@ -90,6 +94,6 @@ def provenance(case: Path, inputs: Iterable[Path], command: list[str]) -> dict[s
             "cores": os.cpu_count(),
             "byte_order": sys.byteorder,
         },
-        "case": {"path": shown_path(case), "sha256": checksum(case)},
+        "case": {"path": shown_path(case), "sha256": sha256 or checksum(case)},
         "inputs": listed,
     }
