@@ -11,7 +11,7 @@ from solver.case.semi_implicit import azimuthal_flux_of
 from solver.case.start import initial_state
 from solver.geometry.symmetry import all_rows, fewer_rows
 from solver.marching.section_stepper import stepper_of
-from solver.marching.semi_implicit import equal_steps, implicitness
+from solver.marching.semi_implicit import equal_steps, implicitness, loosened
 from solver.marching.two_modes import mean_axis_velocity
 from solver.marching.walk import require_exponents
 from solver.model.parameters import Model
@@ -50,6 +50,7 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
     axis = None if model.two_modes is None else np.empty(area.shape[:2])
     crossing = None if model.section_wall is None else np.empty(area.shape)
     stepper = stepper_of(computed, initial_state(case, computed))
+    stepper.tolerance = loosened(stepper.tolerance, case.solver.time_step)
     for n, end in enumerate(times.tolist()):
         if n > 0:
             time_step, count = equal_steps(stepper.time, end, case.solver.time_step)

@@ -19,6 +19,8 @@ from solver.model.parameters import Model, State
 SHORTEST_SHARE = 1e-6  # of the largest Δt: below it error control gives up
 SLOWEST_GROWTH, FASTEST_GROWTH = 0.2, 2.0  # of Δt from one step to the next
 DAMPING_RATE = 20.0  # 1/s: θ = ½ + rate·Δt damps the pulse wave and stays second order in time
+FINE_STEP = 1e-3  # s: an iteration of longer steps may err more, as their time error does
+LOOSEST = 300.0  # times the tolerance of fine steps
 
 Progress = Callable[[float, float], None]
 
@@ -109,6 +111,11 @@ def implicitness(time_step: float) -> float:
     return 0.5 + min(0.5, DAMPING_RATE * time_step)
 
 
+def loosened(tolerance: float, time_step: float) -> float:
+    """Tolerance of the iteration of equal steps: of fine ones, or more by (Δt/1 ms)³, like a step's error."""
+    return tolerance * min(max(1.0, (time_step / FINE_STEP) ** 3), LOOSEST)
+
+
 def equal_steps(begin: float, end: float, time_step: float) -> tuple[float, int]:
     """Δt, s, and number of the equal steps, not longer than ``time_step``, between two times."""
     count = max(1, int(np.ceil((end - begin) / time_step * (1 - 1e-12))))
@@ -134,6 +141,8 @@ def snapshots(
     start = initial.copy() if initial else steady_state(model, float(model.inlet.signal(times[0])))
     start.time = float(times[0])
     stepper = stepper_of(model, start)
+    if error_tolerance is None:
+        stepper.tolerance = loosened(stepper.tolerance, time_step)
     wanted = time_step if first_step is None else first_step
     watch = monitor or Monitor(model, Limits())
     defect = longest = 0.0

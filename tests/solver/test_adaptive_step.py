@@ -5,7 +5,7 @@ import pytest
 from thesis_artery import DIASTOLE, PATTERNS, PULSATILE_OUTLET, artery, thesis_waveform
 
 from solver.errors import NoAdmissibleProfile, NotConverged
-from solver.marching.semi_implicit import simulate, snapshots
+from solver.marching.semi_implicit import loosened, simulate, snapshots
 from solver.model.parameters import uniform_state
 from solver.model.waveform import Waveform
 
@@ -107,3 +107,22 @@ def test_an_initial_state_is_left_alone(model):
     assert start.time == before.time
     np.testing.assert_array_equal(start.area, before.area)
     np.testing.assert_array_equal(start.flow, before.flow)
+
+
+@pytest.mark.parametrize("time_step", [2e-3, 4e-3, 8e-3])
+def test_the_iteration_of_long_steps_errs_far_less_than_they_do(model, monkeypatch, time_step):
+    times = np.linspace(0, WAVEFORM.period, 21)
+    exact = simulate(model, times, 1e-4)
+    found = simulate(model, times, time_step)
+    monkeypatch.setattr("solver.marching.semi_implicit.loosened", lambda tolerance, _: 1e-3 * tolerance)
+    converged = simulate(model, times, time_step)
+    assert found.sweeps < 0.75 * converged.sweeps
+    for name in ("flow", "pressure", "area"):
+        iterated, ours, true = (getattr(run, name) for run in (converged, found, exact))
+        assert np.max(np.abs(ours - iterated)) < 0.01 * np.max(np.abs(iterated - true))
+
+
+def test_the_tolerance_of_short_steps_is_not_loosened():
+    assert loosened(3e-8, 1e-3) == loosened(3e-8, 1e-5) == 3e-8
+    assert loosened(3e-8, 2e-3) == pytest.approx(2.4e-7)
+    assert loosened(3e-8, 1.0) == pytest.approx(9e-6)
