@@ -1,4 +1,4 @@
-"""A run of the semi-implicit scheme that nothing watches: no diagnostics, no row that another stands for."""
+"""A run of the semi-implicit scheme that nothing watches: no diagnostics."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,6 @@ from cases.sections.case import Case
 from solver.case.model import error_tolerance
 from solver.case.semi_implicit import azimuthal_flux_of
 from solver.case.start import initial_state
-from solver.geometry.symmetry import all_rows, fewer_rows
 from solver.marching.section_stepper import stepper_of
 from solver.marching.semi_implicit import equal_steps, implicitness, loosened
 from solver.marching.two_modes import mean_axis_velocity
@@ -30,26 +29,24 @@ def is_plain(case: Case) -> bool:
 def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], None]) -> CellHistory:
     """States of a plain case at its output times (n,), s; without diagnostics.
 
-    The steps are those of :func:`solver.marching.semi_implicit.snapshots`, and so are the bits, except where
-    rows stand for others (:func:`solver.geometry.symmetry.fewer_rows`): that differs by round-off.
+    The steps are those of :func:`solver.marching.semi_implicit.snapshots`, and so are the bits.
 
     Parameters
     ----------
     case : Case
     model : Model
-        Of the case.
+        Of the case, with all its rows or those that :func:`solver.geometry.symmetry.fewer_rows` leaves.
     times : ndarray (n,)
         Increasing; the first is where the run starts.
     reached : callable
         Called at each of them.
     """
-    grid, computed = model.grid, fewer_rows(model)
-    n_phi = computed.grid.n_phi
-    area, pressure = (np.empty((times.size, grid.n_x, n_phi)) for _ in range(2))
-    flow = np.empty((times.size, grid.n_x + 1, n_phi))
+    n_x, n_phi = model.grid.n_x, model.grid.n_phi
+    area, pressure = (np.empty((times.size, n_x, n_phi)) for _ in range(2))
+    flow = np.empty((times.size, n_x + 1, n_phi))
     axis = None if model.two_modes is None else np.empty(area.shape[:2])
     crossing = None if model.section_wall is None else np.empty(area.shape)
-    stepper = stepper_of(computed, initial_state(case, computed))
+    stepper = stepper_of(model, initial_state(case, model))
     stepper.tolerance = loosened(stepper.tolerance, case.solver.time_step)
     for n, end in enumerate(times.tolist()):
         if n > 0:
@@ -66,16 +63,16 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
         reached()
     through = flow[:, 1:] + flow[:, :-1]
     through *= 0.5
-    exponent = _exponents(computed, area, through)
+    exponent = _exponents(model, area, through)
     require_exponents(times, exponent)
-    if computed.two_modes is not None and computed.two_modes.closure == "mean":
-        axis = mean_axis_velocity(computed.two_modes, area, through)
+    if model.two_modes is not None and model.two_modes.closure == "mean":
+        axis = mean_axis_velocity(model.two_modes, area, through)
     return CellHistory(
         times=times,
-        area=all_rows(area, grid.n_phi),
-        flow=all_rows(through, grid.n_phi),
-        pressure=all_rows(pressure, grid.n_phi),
-        exponent=all_rows(exponent, grid.n_phi),
+        area=area,
+        flow=through,
+        pressure=pressure,
+        exponent=exponent,
         diagnostics={},
         azimuthal_flux=crossing,
         axis_velocity=axis,

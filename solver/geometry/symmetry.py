@@ -36,7 +36,7 @@ def all_rows(values: Floats, n_phi: int) -> Floats:
     rows = values.shape[-1]
     if 1 < rows < n_phi:
         return np.concatenate([values, values[..., ::-1]], axis=-1)
-    return np.broadcast_to(values, (*values.shape[:-1], n_phi))
+    return values if rows == n_phi else np.broadcast_to(values, (*values.shape[:-1], n_phi))
 
 
 def _alike(model: Model, other: NDArray[np.int_]) -> bool:

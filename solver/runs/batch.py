@@ -23,6 +23,7 @@ from solver.case.model import model_of
 from solver.case.plain_run import is_plain, plain_states
 from solver.case.run import walk
 from solver.errors import ModelError, SolverError
+from solver.geometry.symmetry import all_rows, fewer_rows
 from solver.marching.semi_implicit import Progress, checked_times
 from solver.marching.walk import history_of
 from solver.model.parameters import Model
@@ -68,6 +69,7 @@ def run_batch(
     keep: Keep[T],
     threads: int | None = None,
     progress: Progress | None = None,
+    every_row: bool = True,
 ) -> list[Outcome[T]]:
     """Run cases side by side, each through its output times.
 
@@ -85,6 +87,9 @@ def run_batch(
         Default: one for each processor that this process may use.
     progress : callable, optional
         Called with (cases done, cases in all) after each case, in the calling thread.
+    every_row : bool, optional
+        Whether ``keep`` is given all rows of the case; else only those that were computed, with a model of
+        them, where others are alike or their mirror images.
 
     Returns
     -------
@@ -102,7 +107,8 @@ def run_batch(
     pool = ThreadPoolExecutor(max_workers=max(1, min(workers, len(cases))))
     try:
         futures = [
-            pool.submit(_outcome, case, each, keep, stop) for case, each in zip(cases, instants, strict=True)
+            pool.submit(_outcome, case, each, keep, stop, every_row)
+            for case, each in zip(cases, instants, strict=True)
         ]
         _report(futures, progress)
         return [future.result() for future in futures]
@@ -133,15 +139,26 @@ def _report(futures: list[Future[Outcome[T]]], progress: Progress | None) -> Non
             progress(float(len(futures) - len(pending)), float(len(futures)))
 
 
-def _outcome(case: Case, times: Floats, keep: Keep[T], stop: threading.Event) -> Outcome[T]:
+def _outcome(case: Case, times: Floats, keep: Keep[T], stop: threading.Event, every_row: bool) -> Outcome[T]:
     """Run one case; its failure is what became of it."""
     begin = time.thread_time()
     try:
         model = model_of(case)
-        kept = keep(model, _states(case, model, times, stop))
+        computed = fewer_rows(model) if is_plain(case) else model
+        cells = _states(case, computed, times, stop)
+        whole = (model, _in_all_rows(cells, model.grid.n_phi)) if every_row else (computed, cells)
+        kept = keep(*whole)
     except SolverError as error:
         return Outcome(None, error, time.thread_time() - begin)
     return Outcome(kept, None, time.thread_time() - begin)
+
+
+def _in_all_rows(cells: CellHistory, n_phi: int) -> CellHistory:
+    """States of a model's fewer rows in all its ``n_phi`` rows."""
+    area, flow, pressure, exponent = (
+        all_rows(values, n_phi) for values in (cells.area, cells.flow, cells.pressure, cells.exponent)
+    )
+    return cells._replace(area=area, flow=flow, pressure=pressure, exponent=exponent)
 
 
 def _states(case: Case, model: Model, times: Floats, stop: threading.Event) -> CellHistory:

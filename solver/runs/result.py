@@ -76,7 +76,7 @@ def cell_fields(model: Model, cells: CellHistory, names: Collection[str] | None 
         "radius": lambda: np.sqrt(cells.area),
         "mean_velocity": lambda: cells.flow / cells.area,
         "sector_flow_rate": lambda: 0.5 * model.grid.dphi * cells.flow,
-        "section_flow_rate": lambda: (0.5 * model.grid.dphi * cells.flow).sum(axis=-1),
+        "section_flow_rate": lambda: (model.grid.sector * cells.flow).sum(axis=-1),
         "section_pressure": lambda: section_mean(cells.pressure, cells.area),
         "wall_stiffness": lambda: model.stiffness,
         **{name: partial(np.asarray, values) for name, values in cells.diagnostics.items()},

@@ -112,6 +112,19 @@ def test_one_half_of_a_symmetric_ring_stands_for_both(variants, half, centre, mo
     assert_same_fields(found, run_case(case, TIMES), ROUND_OFF)
 
 
+@pytest.mark.parametrize(("phi", "rows"), [((1.0, 2 * np.pi - 1.0), 4), ((1.0, 2.0), 8)])
+def test_only_computed_rows_are_kept_where_no_other_is_wanted(variants, phi, rows):
+    case = with_patch(variants["patch"], 1e7, 5e-3, phi)
+    (outcome,) = run_batch([case], TIMES, cell_dataset, every_row=False)
+    (whole,) = run_batch([case], TIMES, cell_dataset)
+    assert outcome.kept.sizes["phi"] == rows
+    for name in ("pressure", "radius", "mean_velocity", "profile_exponent"):
+        np.testing.assert_array_equal(all_rows(outcome.kept[name].to_numpy(), 8), whole.kept[name])
+    sections = ["section_flow_rate", "section_pressure"]
+    assert_same_fields(outcome.kept[sections], whole.kept, 1e-14)
+    assert outcome.kept["phi"][0] == whole.kept["phi"][0]
+
+
 @pytest.mark.parametrize(
     ("rows", "kept"),
     [([1, 2, 3, 4, 4, 3, 2, 1], 4), ([1, 2, 3, 4, 4, 3, 2, 2], 8), ([5] * 8, 1), ([1, 2, 2, 1], 4)],

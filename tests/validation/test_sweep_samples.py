@@ -5,12 +5,16 @@ import math
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from small_case import READY, small_case
+from small_case import READY, small_case, written
 from small_sweep import small_study
 
 from cases.reading.case_file import load_case_file
 from cases.reading.numeric_keys import numeric_keys
 from cases.reading.template import case_with, load_template
+from solver.runs.batch import run_batch
+from solver.runs.result import cell_dataset
+from validation.runs.reduced_model import change_of, run_times
+from validation.sweep.outputs import CYCLE_CHANGE, MEASURED, MEASURES
 from validation.sweep.samples import samples_of_study
 from validation.sweep.spans import ends_of, span_keys
 
@@ -99,3 +103,42 @@ def test_a_sample_that_is_refused_says_why(tmp_path):
     assert sample.error.startswith("calcification.x[1]: -0.0025")
     assert "m; allowed: a length from 0 m to 10 m" in sample.error
     assert sample.values == (1e6, 0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("angles", "rows"),
+    [
+        ([("135 deg", "225 deg")], 4),
+        ([("315 deg", "45 deg")], 4),
+        ([("225 deg", "315 deg"), ("45 deg", "135 deg")], 4),  # the first lies in the half that is left out
+        ([("90 deg", "225 deg")], 8),
+    ],
+)
+def test_outputs_of_the_computed_rows_are_those_of_all(tmp_path, angles, rows):
+    content = small_case("local")
+    patches = [
+        {
+            "pattern": "local",
+            "youngs_modulus": "10 MPa",
+            "x": ["5 mm", "10 mm"],
+            "phi": list(ends),
+            "transition": "sharp",
+        }
+        for ends in angles
+    ]
+    content["variants"]["local"]["calcification"] = {"pattern": "several", "patches": patches}
+    case = load_case_file(written(content, tmp_path)).variants["local"]
+    times = run_times(case, [0.0, 0.2 * case.inlet.period, 0.5 * case.inlet.period, case.inlet.period])
+
+    def outputs(model, cells):
+        last = cell_dataset(model, cells, MEASURED)
+        last = last.assign_attrs({CYCLE_CHANGE: change_of(case, last)})
+        return last.sizes["phi"], {name: measure(case, last) for name, measure in MEASURES.items()}
+
+    computed, everywhere = (
+        run_batch([case], times, outputs, every_row=each)[0].kept for each in (False, True)
+    )
+    assert (computed[0], everywhere[0]) == (rows, 8)
+    for name, value in everywhere[1].items():
+        assert computed[1][name] == pytest.approx(value, rel=1e-12), name

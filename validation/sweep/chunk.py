@@ -77,14 +77,15 @@ def _run(sample: Sample, case: Case, plan: Plan) -> Record:
     standard = plan.standards[sample.variant]
     cases = [case, *([coupled_model(case)] if standard.against == "coupled" else [])]
     instants = instants_of(standard, case)
-    needed = None if any(output.bands for output in plan.outputs) else MEASURED
+    judged = any(output.bands for output in plan.outputs)
+    needed = None if judged else MEASURED
 
     def last_cycle(model: Model, cells: CellHistory) -> xr.Dataset:
         whole = cell_dataset(model, cells, needed)
         change = change_of(cases[0], whole)
         return _at(whole, instants).assign_attrs({CYCLE_CHANGE: change})
 
-    outcomes = run_batch(cases, run_times(case, instants), last_cycle, THREADS)
+    outcomes = run_batch(cases, run_times(case, instants), last_cycle, THREADS, every_row=judged)
     seconds = sum(outcome.cpu_s for outcome in outcomes)
     lasts: list[xr.Dataset] = []
     for words, outcome in zip(("", "the coupled model: "), outcomes, strict=False):

@@ -54,14 +54,14 @@ class Output:
 
 def _at_end(index: int, number: Callable[[Floats], float]) -> Measure:
     def measure(_case: Case, last: xr.Dataset) -> float:
-        return number(last["section_pressure"].isel(x=index).to_numpy())
+        return number(last["section_pressure"].to_numpy()[:, index])
 
     return measure
 
 
 def _mean_over_cycle(index: int) -> Measure:
     def measure(_case: Case, last: xr.Dataset) -> float:
-        pressure, times = last["section_pressure"].isel(x=index).to_numpy(), last["time"].to_numpy()
+        pressure, times = last["section_pressure"].to_numpy()[:, index], last["time"].to_numpy()
         return float(np.trapezoid(pressure, times) / (times[-1] - times[0]))
 
     return measure
@@ -85,8 +85,11 @@ def _patch_row(case: Case, last: xr.Dataset) -> int:
         return 0
     first, end = part.phi
     centre = first + 0.5 * ((end - first) % (2.0 * np.pi))
-    apart = np.exp(1j * last["phi"].to_numpy()) - np.exp(1j * centre)
-    return int(np.argmin(np.abs(apart)))
+    phi = last["phi"].to_numpy()
+    apart = np.abs(np.exp(1j * phi) - np.exp(1j * centre))
+    if phi.max() < np.pi:  # rows of one half, which stand for their mirror images
+        apart = np.minimum(apart, np.abs(np.exp(-1j * phi) - np.exp(1j * centre)))
+    return int(np.argmin(apart))
 
 
 def _growth(radius: Floats) -> float:
