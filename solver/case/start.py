@@ -42,8 +42,8 @@ def periodic_state(case: Case, model: Model, progress: Progress | None = None) -
     The first cycle starts in the steady state of the inlet's mean. A Windkessel whose capacitor a cycle takes
     from P₀ to P₁ then has P₀ + (P₁ − P₀)/(1 − e^(−T/R₂C)), where it would end if its flow stayed as it is.
     Of the last cycles the next start is the combination whose changes cancel best (Anderson mixing: Walker
-    and Ni 2011, doi:10.1137/10078356X), so that a few cycles suffice for R₂C up to 12 s at least; with 120 s
-    the march to the first steady state does not end.
+    and Ni 2011, doi:10.1137/10078356X), so that a few cycles suffice for R₂C up to 120 s at least; with
+    1200 s the march to the first steady state does not end.
 
     Parameters
     ----------

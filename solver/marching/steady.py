@@ -9,7 +9,7 @@ from solver.model.boundary import NonReflectingOutlet, ResistanceOutlet
 from solver.model.parameters import Model, State, uniform_state
 from solver.schemes.layout import REST_VELOCITY
 
-FIRST_STEP, SHORTEST_STEP, LONGEST_STEP, GROWTH = 1e-3, 1e-5, 0.1, 1.5  # s, s, s, –
+FIRST_STEP, SHORTEST_STEP, LONGEST_STEP, GROWTH = 1e-2, 1e-5, 1.0, 2.0  # s, s, s, –
 MOST_STEPS = 20_000
 
 
@@ -33,7 +33,7 @@ def _guess(model: Model, inlet_value: float) -> State:
 def steady_state(model: Model, inlet_value: float, start: State | None = None) -> State:
     """March to the state that a constant inlet value leads to.
 
-    Fully implicit steps that grow from 1 ms, until nothing changes any more; a step that fails is halved, and
+    Fully implicit steps that grow from 10 ms, until nothing changes any more; a step that fails is halved, and
     none is longer after it. The outlet's prescribed pressure is that of time 0.
 
     Parameters

@@ -64,6 +64,12 @@ def test_one_cycle_is_that_of_a_long_run(case, changes):
         assert np.max(apart) < 1e-3 * np.max(np.abs(many[name].to_numpy())), name
 
 
+def test_a_time_constant_of_two_minutes_is_no_obstacle(case):
+    outlet = PARTS["outlet"].replace("2.5e-9", "6e-8")
+    stated = case("cycles: 1, start: periodic", outlet=outlet)
+    assert cycle_change(stated, run_case(stated, np.array([0.0, PERIOD]))) <= 2 * PERIODIC
+
+
 def test_a_batch_starts_alike(case):
     stated, times = case("cycles: 1, start: periodic", calcification=PATCH), np.linspace(0.0, PERIOD, 5)
     (outcome,) = run_batch([stated], times, cell_dataset)
