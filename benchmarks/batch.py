@@ -106,7 +106,7 @@ def command_cpu_s(path: Path, folder: Path, count: int) -> float:
 
 def kept_of(cases: Sequence[Case], times: Floats, threads: int) -> Floats:
     """Numbers of each case (n, 3), NaN where it fails."""
-    outcomes = run_batch(cases, times, numbers, threads)
+    outcomes = run_batch(cases, times, numbers, threads, every_row=False)
     return np.array([(np.nan,) * 3 if outcome.kept is None else outcome.kept for outcome in outcomes])
 
 

@@ -33,8 +33,8 @@ def _guess(model: Model, inlet_value: float) -> State:
 def steady_state(model: Model, inlet_value: float, start: State | None = None) -> State:
     """March to the state that a constant inlet value leads to.
 
-    Fully implicit steps that grow from 10 ms, until nothing changes any more; a step that fails is halved, and
-    none is longer after it. The outlet's prescribed pressure is that of time 0.
+    Fully implicit steps that grow from 10 ms, until nothing changes any more; a step that fails is halved,
+    and none is longer after it. The outlet's prescribed pressure is that of time 0.
 
     Parameters
     ----------
