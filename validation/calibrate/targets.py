@@ -1,6 +1,6 @@
 """What a calibration's runs must attain: numbers of the last cycle, or a 3D reference over it."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,7 @@ from cases.reading.calibration_file import Calibration, Place, ReferenceTarget, 
 from cases.sections.case import Case
 from solver.case.model import grid_of
 from solver.model.parameters import Model
-from solver.runs.result import CellHistory, coordinates, described, section_mean
+from solver.runs.result import CellHistory, cell_dataset
 from validation.errors import ValidationError
 from validation.mapping.rays import rays
 from validation.metrics.quantities import CYCLE_QUANTITIES
@@ -86,7 +86,7 @@ def _of_targets(case: Case, targets: tuple[Target, ...]) -> Observed:
     needed = {name for quantity in quantities for name in reads(quantity)}
 
     def measure(model: Model, cells: CellHistory) -> Floats:
-        cycle = measured(model, cells, needed).isel(time=slice(-last.size, None))
+        cycle = cell_dataset(model, cells, needed).isel(time=slice(-last.size, None))
         return np.array([CYCLE_QUANTITIES[target.quantity](at_place(cycle, target.at)) for target in targets])
 
     return Observed(
@@ -98,17 +98,6 @@ def _of_targets(case: Case, targets: tuple[Target, ...]) -> Observed:
         times=run_times(case, last),
         measure=measure,
     )
-
-
-def measured(model: Model, cells: CellHistory, names: Iterable[str]) -> xr.Dataset:
-    """Fields of a run that are wanted, as :func:`solver.runs.result.cell_dataset` gives them."""
-    found: dict[str, Callable[[], Floats]] = {
-        "radius": lambda: np.sqrt(cells.area),
-        "section_pressure": lambda: section_mean(cells.pressure, cells.area),
-        "section_flow_rate": lambda: 0.5 * model.grid.dphi * cells.flow.sum(axis=-1),
-    }
-    dataset = coordinates(cells.times, model.grid.x, model.grid.phi)
-    return dataset.assign({name: described(name, found[name]()) for name in names})
 
 
 def at_place(fields: xr.Dataset, place: Place) -> xr.Dataset:
@@ -139,7 +128,7 @@ def _of_reference(
         raise ValidationError(f"{calibration.path}: the reference states no {quantity} at these places")
 
     def measure(model: Model, cells: CellHistory) -> Floats:
-        dataset = measured(model, cells, {quantity}).sel(time=alignment.rom_times)
+        dataset = cell_dataset(model, cells, {quantity}).sel(time=alignment.rom_times)
         return _over_time(dataset, quantity, target.at)[known]
 
     places = ", ".join(words_of(place) for place in target.at)
