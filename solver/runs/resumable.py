@@ -1,16 +1,18 @@
 """Run a case in pieces, so that memory stays bounded and an interrupted run can go on bit by bit equal.
 
-Every few states the run leaves a piece beside the result file: what was asked for since the last piece, and
-the whole state at its end. The result is written from the pieces when the last one is there.
+Every few states are a piece: what was asked for since the last piece, and the whole state at its end. Pieces
+are left beside the result file every few seconds, and when the run is interrupted; the result is written from
+them when the last one is there. So a run of few seconds leaves none, which took longer than to compute it.
 """
 
 import hashlib
 import os
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import netCDF4
@@ -33,6 +35,8 @@ from solver.runs.netcdf import append_netcdf, write_netcdf
 from solver.runs.result import CellHistory, cell_fields
 
 PIECE = 25  # states
+SECONDS = 2.0  # that pieces are held in memory
+LARGEST = 16e6  # bytes of one field that they may take there
 
 
 @dataclass(frozen=True)
@@ -111,6 +115,31 @@ def run_to_file(
     """
     folder = _prepare(pieces_folder(result), identity, resume)
     model, times = model_of(case), default_output_times(case)
+    held: dict[Path, Piece] = {}
+    try:
+        began = monotonic()
+        for path, piece in _computed(case, model, times, folder, progress):
+            held[path] = piece
+            size = sum(each.cells.pressure.nbytes for each in held.values())
+            if size > LARGEST or monotonic() - began > SECONDS:
+                _leave(held)
+                began = monotonic()
+        parts: list[Path | Piece] = [*sorted(folder.glob("*.npz")), *held.values()]
+        profile = max((widest(piece.cells.pressure) for piece in map(_read, parts)), key=np.ptp)
+        error = wall_locality_error(case, model.section_wall, profile)
+        told = {} if error is None else {"wall_locality_error": error}
+        found = _join(case, model, parts, result, attributes | told)
+    except KeyboardInterrupt:
+        _leave(held)
+        raise
+    shutil.rmtree(folder)
+    return found | told
+
+
+def _computed(
+    case: Case, model: Model, times: Floats, folder: Path, progress: Progress
+) -> Iterator[tuple[Path, Piece]]:
+    """Pieces behind those in a folder, as they are computed, each with its place there."""
     done = sorted(folder.glob("*.npz"))
     first, kept = (int(done[-1].stem), _read(done[-1]).kept) if done else (0, None)
     taken: list[Stop] = []
@@ -122,14 +151,8 @@ def run_to_file(
         if len(taken) == PIECE or (number == times.size - 1 and taken):
             longest = max(each.longest_step for each in taken)
             piece = Piece(history_of(taken), stop.steps - steps, stop.sweeps - sweeps, longest, stop.kept)
-            _write(folder / f"{number:08d}.npz", piece)
+            yield folder / f"{number:08d}.npz", piece
             taken, steps, sweeps = [], stop.steps, stop.sweeps
-    paths = sorted(folder.glob("*.npz"))
-    error = wall_locality_error(case, model.section_wall, _widest_of(paths))
-    told = {} if error is None else {"wall_locality_error": error}
-    found = _join(case, model, paths, result, attributes | told)
-    shutil.rmtree(folder)
-    return found | told
 
 
 def _prepare(folder: Path, identity: str, resume: bool) -> Path:
@@ -154,6 +177,13 @@ _OPTIONAL = ("azimuthal_flux", "axis_velocity")
 _NUMBERS = ("steps", "sweeps", "longest_step")
 
 
+def _leave(held: dict[Path, Piece]) -> None:
+    """Write pieces to their places, and hold them no longer."""
+    for path, piece in held.items():
+        _write(path, piece)
+    held.clear()
+
+
 def _write(path: Path, piece: Piece) -> None:
     values = {name: getattr(piece.cells, name) for name in _ARRAYS}
     values |= {name: np.asarray(getattr(piece, name)) for name in _NUMBERS}
@@ -167,8 +197,11 @@ def _write(path: Path, piece: Piece) -> None:
         os.fsync(stream.fileno())
 
 
-def _read(path: Path) -> Piece:
-    with np.load(path) as stored:
+def _read(part: Path | Piece) -> Piece:
+    """Return a piece, from its place if it is no longer held."""
+    if isinstance(part, Piece):
+        return part
+    with np.load(part) as stored:
         diagnostics = {name: stored[f"diagnostic_{name}"] for name in Diagnostics._fields}
         arrays = {name: stored[name] for name in (*_ARRAYS, *_OPTIONAL) if name in stored.files}
         cells = CellHistory(**arrays, diagnostics=diagnostics)
@@ -177,37 +210,25 @@ def _read(path: Path) -> Piece:
         return Piece(cells, **numbers, kept={name.removeprefix("kept_"): stored[name] for name in names})
 
 
-def _widest_of(paths: list[Path]) -> Floats:
-    """Section pressures at the instant of a run at which they vary most along the artery, Pa, (n_x,)."""
-    profiles = []
-    for path in paths:
-        with np.load(path) as stored:
-            profiles.append(widest(stored["pressure"]))
-    return max(profiles, key=lambda profile: float(np.ptp(profile)))
-
-
 def _join(
-    case: Case, model: Model, paths: list[Path], result: Path, attributes: dict[str, Any]
+    case: Case, model: Model, parts: list[Path | Piece], result: Path, attributes: dict[str, Any]
 ) -> dict[str, Any]:
     """Write the result from its pieces, one in memory at a time."""
     steps = sweeps = 0
     longest = 0.0
     largest = dict.fromkeys(Diagnostics._fields, float("nan"))
+    first = _read(parts[0]).cells
+    axes = {"time": first.times, "x": model.grid.x, "phi": model.grid.phi}
     with writing(result, SolverError), write_whole(result) as partial:
-        for path in paths:
-            piece = _read(path)
-            steps, sweeps = steps + piece.steps, sweeps + piece.sweeps
-            longest = max(longest, piece.longest_step)
-            for name, values in piece.cells.diagnostics.items():
-                largest[name] = float(np.fmax.reduce(np.abs(values), initial=largest[name]))
-            time, fields = piece.cells.times, cell_fields(model, piece.cells)
-            if path == paths[0]:
-                axes = {"time": time, "x": model.grid.x, "phi": model.grid.phi}
-                write_netcdf(partial, axes, fields, attributes)
-            else:
-                with netCDF4.Dataset(partial, "a") as stored:
-                    append_netcdf(stored, time, fields)
+        write_netcdf(partial, axes, cell_fields(model, first), attributes)
         with netCDF4.Dataset(partial, "a") as stored:
+            for number, piece in enumerate(map(_read, parts)):
+                steps, sweeps = steps + piece.steps, sweeps + piece.sweeps
+                longest = max(longest, piece.longest_step)
+                for name, values in piece.cells.diagnostics.items():
+                    largest[name] = float(np.fmax.reduce(np.abs(values), initial=largest[name]))
+                if number > 0:
+                    append_netcdf(stored, piece.cells.times, cell_fields(model, piece.cells))
             stored.setncatts(counts(case, steps, sweeps, longest))
             change = cycle_change(case, stored.variables)
             if change is not None:

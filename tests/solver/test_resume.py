@@ -139,7 +139,7 @@ def test_interrupted_again_and_again(run, case_file):
 
 
 def test_memory_holds_one_piece(run, case_file, monkeypatch):
-    """What is collected at once is a piece, whatever the number of states."""
+    """What is collected at once is a piece, and what is held a few, whatever the number of states."""
     changed(case_file, "cycles: 2", "cycles: 9")
     sizes = []
     history_of = running.history_of
@@ -148,12 +148,52 @@ def test_memory_holds_one_piece(run, case_file, monkeypatch):
         sizes.append(len(stops))
         return history_of(stops)
 
+    leave = running._leave
+    held = []
+
+    def left(pieces):
+        held.append(len(pieces))
+        leave(pieces)
+
     monkeypatch.setattr(running, "history_of", counted)
+    monkeypatch.setattr(running, "_leave", left)
+    monkeypatch.setattr(running, "LARGEST", 2.5 * 4 * 12 * 8 * 8)  # bytes of two pieces and a half
     run(case_file, "--variant", "healthy", "--output", case_file.with_name("run.nc"))
     assert sum(sizes) == 91
     assert max(sizes) == 4
+    assert held == [3] * 7
     with xr.open_dataset(case_file.with_name("run.nc")) as result:
         np.testing.assert_allclose(result["time"], np.arange(91) * 0.02, atol=1e-12)
+
+
+def test_a_short_run_leaves_no_pieces(run, case_file, monkeypatch):
+    written = []
+    write = running._write
+    monkeypatch.setattr(
+        running, "_write", lambda path, piece: (written.append(path.name), write(path, piece))
+    )
+    whole, parts = case_file.with_name("whole.nc"), case_file.with_name("parts.nc")
+    assert run(case_file, "--variant", "patch", "--output", whole) == (0, "")
+    assert written == []
+    monkeypatch.setattr(running, "SECONDS", 0.0)
+    assert run(case_file, "--variant", "patch", "--output", parts) == (0, "")
+    assert written == [f"{last:08d}.npz" for last in (3, 7, 11, 15, 19, 20)]
+    assert whole.read_bytes() == parts.read_bytes()
+
+
+def test_an_interrupt_of_the_result_keeps_every_piece(run, case_file, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    whole, parts = case_file.with_name("whole.nc"), case_file.with_name("parts.nc")
+    with monkeypatch.context() as patched:
+        patched.setattr(running, "append_netcdf", interrupt)
+        assert run(case_file, "--variant", "patch", "--output", parts)[0] == 130
+    assert not parts.exists()
+    assert len(list(pieces_folder(parts).glob("*.npz"))) == 6
+    assert run(case_file, "--variant", "patch", "--output", whole) == (0, "")
+    assert run(case_file, "--variant", "patch", "--output", parts, "--resume") == (0, "")
+    assert whole.read_bytes() == parts.read_bytes()
 
 
 def interrupted(run, case_file):
@@ -205,6 +245,14 @@ def test_a_new_run_does_not_take_up_old_pieces(run, case_file):
     assert_same_bytes(whole, output)
 
 
+AT_ONCE = """
+from cases.shell.command import run
+import solver.runs.resumable as running
+running.SECONDS = 0.0  # leave every piece at once
+raise SystemExit(run("solver.command"))
+"""
+
+
 @pytest.mark.slow
 def test_a_killed_run_goes_on(case_file, monkeypatch):
     """SIGKILL leaves no time to tidy up; a half-written piece is not taken up."""
@@ -212,7 +260,7 @@ def test_a_killed_run_goes_on(case_file, monkeypatch):
     outputs = [case_file.with_name(name) for name in ("whole.nc", "killed.nc")]
 
     def arguments(output):
-        return [sys.executable, "-m", "solver", str(case_file), "--variant", "patch", "--output", str(output)]
+        return [sys.executable, "-c", AT_ONCE, str(case_file), "--variant", "patch", "--output", str(output)]
 
     killed = subprocess.Popen(arguments(outputs[1]), cwd=ROOT, stderr=subprocess.DEVNULL)  # noqa: S603
     while len(list(pieces_folder(outputs[1]).glob("*.npz"))) < 2 and killed.poll() is None:
