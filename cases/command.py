@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from cases.errors import CaseError
 from cases.shell.command import COMPLETE, WRONG_INPUT, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 
 if TYPE_CHECKING:
     from cases.reading.case_file import CaseFile
@@ -37,7 +37,7 @@ def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
 
 
 def _run(options: argparse.Namespace) -> int:
-    with interrupts_deferred():
+    with imports():
         from cases.reading.case_file import load_case_file
         from cases.reading.json_schema import case_file_schema
 

@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from reports.errors import ReportError
 
 
 def _written(directories: list[Path]) -> tuple[Path, ...]:
-    with interrupts_deferred():
+    with imports():
         from reports.build import write_gallery, write_reports
         from reports.sweep import is_sweep, write_sweep_page
 

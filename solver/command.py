@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from solver.errors import SolverError
 from solver.runs.files import check_folder, pieces_folder
 
@@ -57,7 +57,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    with interrupts_deferred():
+    with imports():
         from cases.reading.case_file import load_case_file
         from cases.reading.models import labelled
         from cases.sections.doubts import doubts_of

@@ -19,7 +19,7 @@ Scalar = str | int | float | bool | None
 LARGEST_FILE = 1_000_000
 TAG = "tag:yaml.org,2002:"
 # what escapes such as "\0" and "\uD800" put into texts: control characters, and those that are none
-NO_TEXT = re.compile(r"[^\t\n\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+NO_TEXT = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 NO_KEY = re.compile(rf"{NO_TEXT.pattern}|[\t\n]")
 BEYOND_UNICODE = re.compile(r"\\U(?!0010|000)[0-9A-Fa-f]{8}")
 

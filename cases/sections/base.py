@@ -15,7 +15,7 @@ SAME = 1e-9  # relative difference of sums and periods that are meant to be equa
 class Section(BaseModel):
     """A frozen section that refuses unknown keys."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 def told_apart_by(key: str) -> Discriminator:

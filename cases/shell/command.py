@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import NoReturn
 
 from cases.shell.errors import InputError
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 
 # exit status; BAND_BROKEN is also that of a run that failed and of a pipe that its reader has closed
 COMPLETE, BAND_BROKEN, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -34,7 +34,7 @@ def run(module: str, program: str | None = None, arguments: Sequence[str] | None
     sys.argv = [program or f"python -m {module.removesuffix('.command')}", *arguments]  # argparse's usage
     try:
         signal.signal(signal.SIGTERM, _interrupt)
-        with interrupts_deferred():
+        with imports():
             command = import_module(module)
         status = int(command.main(list(arguments)))
         sys.stdout.flush()

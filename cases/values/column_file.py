@@ -1,18 +1,23 @@
 """CSV files of two columns whose header names quantities with their units, read into SI numbers."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
+from itertools import pairwise
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from cases.arrays import Floats
 from cases.errors import ColumnFileError, QuantityError, UnreadableFileError
 from cases.values.common_units import UNITS
 from cases.values.input_files import read_file
 from cases.values.ranges import CYCLE_TIMES, FLOW_RATES, PRESSURES, SIZES, VELOCITIES, Range
 from cases.values.units import parse_number
 from cases.values.wording import but_allowed, choices, nearest, shown
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 LARGEST_FILE = 10_000_000
 SEPARATORS = {"\t": "tabs", ";": "semicolons", "|": "bars", " ": "blanks"}
@@ -75,29 +80,27 @@ class Samples:
 
     Attributes
     ----------
-    first, second : ndarray, shape (n,)
-        The two columns in SI units; read-only.
+    rows : tuple of (float, float), length n
+        The two columns in SI units.
     lines : tuple of int, length n
         Line of each row, counted from 1.
     """
 
-    first: Floats
-    second: Floats
+    rows: tuple[tuple[float, float], ...]
     lines: tuple[int, ...]
 
-    def require_increasing(self, values: Floats, word: str, plural: str) -> None:
-        """Refuse values that do not increase strictly from row to row.
+    def require_increasing(self, column: int, word: str, plural: str) -> None:
+        """Refuse a column, 0 or 1, whose values do not increase strictly from row to row.
 
         Raises
         ------
         ColumnFileError
             With the line of the first value that does not; the message lacks the file's name.
         """
-        (late,) = np.nonzero(np.diff(values) <= 0)
-        if late.size:
-            line = self.lines[int(late[0]) + 1]
-            message = f"{word} does not increase; allowed: strictly increasing {plural}"
-            raise ColumnFileError(f", line {line}: {message}")
+        for line, (before, after) in zip(self.lines[1:], pairwise(self.rows), strict=True):
+            if after[column] <= before[column]:
+                message = f"{word} does not increase; allowed: strictly increasing {plural}"
+                raise ColumnFileError(f", line {line}: {message}")
 
 
 def read_samples(path: Path, first: Column, second: Column, fewest_rows: int) -> Samples:
@@ -140,10 +143,17 @@ def read_samples(path: Path, first: Column, second: Column, fewest_rows: int) ->
     _check_header(header_line, header, first, second)
     if len(rows) < fewest_rows:
         raise ColumnFileError(f": {len(rows)} rows; allowed: {fewest_rows} or more")
-    values = np.array([_row(line, cells, header, (first, second)) for line, cells in rows])
-    columns = values.T.copy()
-    columns.setflags(write=False)
-    return Samples(columns[0], columns[1], tuple(line for line, _ in rows))
+    values = tuple(_row(line, cells, header, (first, second)) for line, cells in rows)
+    return Samples(values, tuple(line for line, _ in rows))
+
+
+def array_of(rows: Sequence[tuple[float, float]], column: int) -> Floats:
+    """Return a column of rows, 0 or 1, as a read-only array (n,)."""
+    import numpy as np  # here: who only checks a file need not wait for it
+
+    values = np.array([row[column] for row in rows])
+    values.setflags(write=False)
+    return values
 
 
 def _check_header(line: int, names: list[str], first: Column, second: Column) -> None:

@@ -5,7 +5,6 @@ from collections import defaultdict
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from xml.etree import ElementTree
 
 from cases.errors import RefusedValueError
 from cases.values.kinds import PATH_SCHEMA, Context, ValueKind, existing_file, refused
@@ -97,6 +96,8 @@ def _numbered(stated: str, folder: Path) -> FileSeries:
 
 def _collection(stated: str, path: Path) -> list[FileSeries]:
     """Return what a .pvd lists: files by part, each with the same times."""
+    from xml.etree import ElementTree
+
     try:
         entries = [
             (float(entry.attrib["timestep"]), entry.get("part", "0"), path.parent / entry.attrib["file"])

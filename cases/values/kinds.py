@@ -232,12 +232,14 @@ def _wall_curve(value: object, context: Context | None) -> WallCurve:
 
 def _samples(waveform: Waveform) -> dict[str, list[float]]:
     """Return what a waveform says, wherever its file lies."""
-    return {"times": waveform.times.tolist(), "values": waveform.values.tolist()}
+    times, values = zip(*waveform.rows, strict=True)
+    return {"times": list(times), "values": list(values)}
 
 
 def _curve_samples(curve: WallCurve) -> dict[str, list[float]]:
     """Return what a wall curve says, wherever its file lies."""
-    return {"radii": curve.radii.tolist(), "pressures": curve.pressures.tolist()}
+    radii, pressures = zip(*curve.rows, strict=True)
+    return {"radii": list(radii), "pressures": list(pressures)}
 
 
 def _switch(value: object, _context: Context | None) -> bool:

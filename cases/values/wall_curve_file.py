@@ -1,44 +1,45 @@
 """Wall curves: pressure over radius of a healthy wall, read from a CSV file."""
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from cases.arrays import Floats
 from cases.errors import ColumnFileError
-from cases.values.column_file import PRESSURE, RADIUS, Samples, read_samples
+from cases.values.column_file import PRESSURE, RADIUS, array_of, read_samples
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 FEWEST_ROWS = 4
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class WallCurve:
-    """Transmural pressure of the healthy wall over lumen radius.
+    """Transmural pressure of the healthy wall over lumen radius; equal to one of the same rows elsewhere.
 
     Attributes
     ----------
-    radii : ndarray, shape (n,)
-        Radii in m, positive and strictly increasing.
-    pressures : ndarray, shape (n,)
-        Pressures in Pa, strictly increasing.
+    rows : tuple of (float, float), length n
+        Radii in m, positive, and pressures in Pa; both increase strictly.
     path : pathlib.Path or None
         The file it was read from.
     """
 
-    radii: Floats
-    pressures: Floats
-    path: Path | None = None
+    rows: tuple[tuple[float, float], ...]
+    path: Path | None = field(default=None, compare=False)
 
-    def __eq__(self, other: object) -> bool:
-        """Compare radii and pressures, not where they were read from."""
-        if not isinstance(other, WallCurve):
-            return NotImplemented
-        return np.array_equal(self.radii, other.radii) and np.array_equal(self.pressures, other.pressures)
+    @cached_property
+    def radii(self) -> Floats:
+        """Radii in m, (n,); read-only."""
+        return array_of(self.rows, 0)
 
-    def __hash__(self) -> int:
-        """Agree with equality, so that cases can be dictionary keys."""
-        return hash((self.radii.tobytes(), self.pressures.tobytes()))
+    @cached_property
+    def pressures(self) -> Floats:
+        """Pressures in Pa, (n,); read-only."""
+        return array_of(self.rows, 1)
 
 
 def read_wall_curve(path: Path, name: str | None = None) -> WallCurve:
@@ -57,7 +58,7 @@ def read_wall_curve(path: Path, name: str | None = None) -> WallCurve:
     Returns
     -------
     WallCurve
-        SI values; its arrays are read-only.
+        SI values.
 
     Raises
     ------
@@ -66,13 +67,8 @@ def read_wall_curve(path: Path, name: str | None = None) -> WallCurve:
     """
     try:
         samples = read_samples(path, RADIUS, PRESSURE, FEWEST_ROWS)
-        _check_curve(samples)
+        samples.require_increasing(0, "radius", "radii")
+        samples.require_increasing(1, "pressure", "pressures")
     except ColumnFileError as error:
         raise ColumnFileError(f"{name or path}{error}") from error
-    return WallCurve(samples.first, samples.second, path)
-
-
-def _check_curve(samples: Samples) -> None:
-    """Refuse radii or pressures that do not increase."""
-    samples.require_increasing(samples.first, "radius", "radii")
-    samples.require_increasing(samples.second, "pressure", "pressures")
+    return WallCurve(samples.rows, path)

@@ -1,49 +1,51 @@
 """Waveforms: one cardiac cycle of a boundary's quantity, read from a CSV file."""
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from cases.arrays import Floats
 from cases.errors import ColumnFileError
-from cases.values.column_file import TIME, VELOCITY, Column, Samples, read_samples
+from cases.values.column_file import TIME, VELOCITY, Column, Samples, array_of, read_samples
 from cases.values.ranges import PERIODS
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 FEWEST_ROWS = 3
 CLOSURE = 1e-9
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Waveform:
-    """One period of a quantity over time, to be repeated.
+    """One period of a quantity over time, to be repeated; equal to one of the same rows from another file.
 
     Attributes
     ----------
-    times : ndarray, shape (n,)
-        Times in s, strictly increasing from 0; the last one is the period.
-    values : ndarray, shape (n,)
-        Values in SI units (m/s, m³/s or Pa); the last one equals the first.
+    rows : tuple of (float, float), length n
+        Times in s, strictly increasing from 0 to the period, and values in SI units (m/s, m³/s or Pa), the
+        last of which equals the first.
     period : float
         Period in s.
     path : pathlib.Path or None
         The file it was read from.
     """
 
-    times: Floats
-    values: Floats
-    period: float
-    path: Path | None = None
+    rows: tuple[tuple[float, float], ...]
+    period: float = field(compare=False)
+    path: Path | None = field(default=None, compare=False)
 
-    def __eq__(self, other: object) -> bool:
-        """Compare times and values, not where they were read from."""
-        if not isinstance(other, Waveform):
-            return NotImplemented
-        return np.array_equal(self.times, other.times) and np.array_equal(self.values, other.values)
+    @cached_property
+    def times(self) -> Floats:
+        """Times in s, (n,); read-only."""
+        return array_of(self.rows, 0)
 
-    def __hash__(self) -> int:
-        """Agree with equality, so that cases can be dictionary keys."""
-        return hash((self.times.tobytes(), self.values.tobytes()))
+    @cached_property
+    def values(self) -> Floats:
+        """Values in SI units, (n,); read-only."""
+        return array_of(self.rows, 1)
 
 
 def read_waveform(path: Path, name: str | None = None, quantity: Column = VELOCITY) -> Waveform:
@@ -64,7 +66,7 @@ def read_waveform(path: Path, name: str | None = None, quantity: Column = VELOCI
     Returns
     -------
     Waveform
-        SI values; its arrays are read-only.
+        SI values.
 
     Raises
     ------
@@ -76,17 +78,18 @@ def read_waveform(path: Path, name: str | None = None, quantity: Column = VELOCI
         _check_cycle(samples, quantity.unit)
     except ColumnFileError as error:
         raise ColumnFileError(f"{name or path}{error}") from error
-    return Waveform(samples.first, samples.second, float(samples.first[-1]), path)
+    return Waveform(samples.rows, samples.rows[-1][0], path)
 
 
 def _check_cycle(samples: Samples, unit: str) -> None:
     """Refuse times that do not increase from 0, and values that do not close the cycle."""
-    times, values, lines = samples.first, samples.second, samples.lines
-    if times[0] != 0.0:
-        raise ColumnFileError(f", line {lines[0]}: starts at {times[0]:g} s; allowed: a first time of 0")
-    samples.require_increasing(times, "time", "times")
-    if times[-1] not in PERIODS:
-        raise ColumnFileError(f", line {lines[-1]}: a period of {times[-1]:g} s; allowed: {PERIODS}")
-    if abs(values[-1] - values[0]) > CLOSURE * np.abs(values).max():
-        found = f"ends at {values[-1]:.9g} {unit} but starts at {values[0]:.9g} {unit}"
+    (start, first), *_, (period, last) = samples.rows
+    lines = samples.lines
+    if start != 0.0:
+        raise ColumnFileError(f", line {lines[0]}: starts at {start:g} s; allowed: a first time of 0")
+    samples.require_increasing(0, "time", "times")
+    if period not in PERIODS:
+        raise ColumnFileError(f", line {lines[-1]}: a period of {period:g} s; allowed: {PERIODS}")
+    if abs(last - first) > CLOSURE * max(abs(value) for _, value in samples.rows):
+        found = f"ends at {last:.9g} {unit} but starts at {first:.9g} {unit}"
         raise ColumnFileError(f", line {lines[-1]}: {found}; allowed: a last value equal to the first")

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from cases.arrays import Floats
 from cases.errors import QuantityError
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from febio_io.feb.model import FebioModelError, MeshSize, Windkessel
 from febio_io.feb.windkessel_start import CLOSE
 
@@ -33,7 +33,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    with interrupts_deferred():
+    with imports():
         from cases.reading.case_file import load_case_file
         from febio_io.feb.from_case import artery_model
         from febio_io.feb.writer import write_model
@@ -58,7 +58,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _periodic_flow(label: str, case: Case) -> Floats:
-    with interrupts_deferred():
+    with imports():
         from cases.shell.terminal import progress_bar
         from solver.case.periodic_outlet import periodic_outlet_flow
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from febio_io.errors import FebioKeyError, nearest_first
 from febio_io.text.data_records import DataRecord
 from febio_io.text.log import Log
@@ -56,7 +56,7 @@ def export_plot(
     chosen = pick_variables(plot, variables)
     numbers = pick_states(plot, states)
     if file_format in ("vtu", "vtkhdf"):
-        with interrupts_deferred():
+        with imports():
             from febio_io.views.export_vtk import write_vtkhdf, write_vtu
         write = write_vtu if file_format == "vtu" else write_vtkhdf
     else:

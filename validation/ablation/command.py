@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 
 PAGE_WIDTH = 160
 
@@ -39,7 +39,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(chosen: argparse.Namespace) -> int:
-    with interrupts_deferred():
+    with imports():
         from cases.reading.case_file import load_case_file
         from cases.shell.terminal import page
         from validation.ablation.study import ablation_rows, printed, write_rows

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from cases.shell.whole import write_text, writing
 from validation.errors import ValidationError
 
@@ -53,7 +53,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(chosen: argparse.Namespace, command: list[str]) -> int:
-    with interrupts_deferred():
+    with imports():
         from rich.console import Console
 
         from cases.shell.terminal import page
@@ -72,7 +72,7 @@ def _run(chosen: argparse.Namespace, command: list[str]) -> int:
 
 
 def _precision(chosen: argparse.Namespace, command: list[str]) -> int:
-    with interrupts_deferred():
+    with imports():
         from rich.console import Console
 
         from cases.values.kinds import STEP_TOLERANCE

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from validation.errors import ValidationError
 
 PAGE_WIDTH = 130  # columns of the tables where there is no terminal
@@ -46,7 +46,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(chosen: argparse.Namespace, command: list[str]) -> int:
-    with interrupts_deferred():
+    with imports():
         from cases.reading.calibration_file import load_calibration
         from cases.shell.terminal import page
         from validation.calibrate.calibration import calibrated

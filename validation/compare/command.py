@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 
 if TYPE_CHECKING:
     from cases.reading.case_file import CaseFile
@@ -44,7 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(chosen: argparse.Namespace, command: list[str]) -> int:
-    with interrupts_deferred():
+    with imports():
         from cases.reading.case_file import load_case_file
         from validation.compare.outcome import summary, targets
         from validation.compare.unchanged import determinants, unchanged
@@ -68,7 +68,7 @@ def _run(chosen: argparse.Namespace, command: list[str]) -> int:
 
 
 def _compared(file: CaseFile, digest: str, target: Path, command: list[str], fresh: bool) -> Outcome:
-    with interrupts_deferred():
+    with imports():
         from validation.compare.case import compare_case
         from validation.runs.cache import open_cache
 
@@ -76,7 +76,7 @@ def _compared(file: CaseFile, digest: str, target: Path, command: list[str], fre
 
 
 def _write_side_by_side(folder: Path, rows: dict[str, Any]) -> None:
-    with interrupts_deferred():
+    with imports():
         from validation.compare.side_by_side import write_side_by_side
 
     written = write_side_by_side(folder, rows)

@@ -3,12 +3,12 @@
 from importlib import import_module
 from pathlib import Path
 
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 
 
 def load_reports() -> None:
     """Load the package that draws, with Matplotlib and all it needs: about a second."""
-    with interrupts_deferred():
+    with imports():
         import_module("reports.build")
 
 

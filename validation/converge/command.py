@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from cases.shell.whole import write_text, writing
 from validation.errors import ValidationError
 
@@ -34,7 +34,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(chosen: argparse.Namespace) -> int:
-    with interrupts_deferred():
+    with imports():
         import pandas as pd
 
         from cases.reading.case_file import load_case_file

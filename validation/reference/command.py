@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Sequence
 
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 
 
 def arguments(argv: Sequence[str] | None) -> argparse.Namespace:
@@ -26,7 +26,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(files: list[str]) -> int:
-    with interrupts_deferred():
+    with imports():
         from validation.reference.inspection.page import page
     print("\n".join(page(files)))
     return COMPLETE

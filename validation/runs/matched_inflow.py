@@ -87,7 +87,7 @@ def inlet_through(case: Case, alignment: Alignment, inflow: Floats) -> FlowInlet
     return FlowInlet.model_construct(
         None,
         kind="flow",
-        waveform=Waveform(fine, values, period),
+        waveform=Waveform(tuple(zip(fine.tolist(), values.tolist(), strict=True)), period),
         value=None,
         fourier=None,
         scale=1.0,

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from cases.shell.command import COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from validation.errors import ValidationError
 
 NEEDED = ("distributed", "locket", "pyarrow", "SALib")
@@ -69,7 +69,7 @@ def _run(chosen: argparse.Namespace) -> int:
     """Sweep; where no folder is chosen, the study's is, as soon as its name is known."""
     _check_libraries()
     _check_scheduler(chosen.scheduler)
-    with interrupts_deferred():
+    with imports():
         from validation.sweep.page import up_to_date_page
         from validation.sweep.run import Where, run_sweep
         from validation.sweep.study import load_study

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from cases.results.sweep import DrawnPage
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from cases.shell.whole import writing
 from solver.kernel_cache import ROOT, sources_digest
 from validation.errors import ValidationError
@@ -34,7 +34,7 @@ def up_to_date_page(folder: Path) -> Path:
         source = _drawn_from(folder, account)
         if account.get("page") == _page(folder, source):
             return place
-        with interrupts_deferred():
+        with imports():
             from reports.sweep import write_sweep_page
 
         write_sweep_page(folder)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pyarrow as pa
 
 from cases.results.sweep import SweepAccount
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 from validation.errors import ValidationError
 from validation.reference.generated import check_computed
 from validation.sweep.account import (
@@ -124,7 +124,7 @@ def _run(
     if where.scheduler == "processes" and not there:
         import_ahead()
     samples = samples_of_study(study)
-    with interrupts_deferred():
+    with imports():
         from validation.sweep.missing import Keeper, judges_of, run_missing
 
     with claimed(where.folder):

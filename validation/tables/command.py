@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cases.shell.command import BAND_BROKEN, COMPLETE, concluded
-from cases.shell.interrupts import interrupts_deferred
+from cases.shell.interrupts import imports
 
 NAMES = ("steady", "pulse", "stability", "3.1", "3.2", "3.3", "3.4", "orders", "3.6", "3.7", "3.9", "schemes")
 PAGE_WIDTH = 110  # columns of the report where there is no terminal
@@ -38,7 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(chosen: argparse.Namespace) -> int:
-    with interrupts_deferred():
+    with imports():
         from cases.shell.terminal import page
         from validation.tables.experiments import EXPERIMENTS, chosen_entries, computed
         from validation.tables.presentation import print_rows, write_csv, write_json

@@ -1,4 +1,7 @@
-"""The registry of wall laws, a module each: what ``wall.law`` and a membrane's ``base`` may be."""
+"""The registry of wall laws, a module each: what ``wall.law`` and a membrane's ``base`` may be.
+
+They take NumPy where they compute: who only checks a case file need not wait for it.
+"""
 
 from cases.sections.wall_laws.law import WallLaw
 from cases.sections.wall_laws.layered import LayeredWall

@@ -1,12 +1,16 @@
 """Thick-walled tubes of one hyperelastic material under finite strain."""
 
+from __future__ import annotations
+
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
-from cases.arrays import Floats
 from cases.sections.wall_laws.law import CompressibleRatio, HomogeneousWall
 from cases.sections.wall_laws.thick import lame_stiffness
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 
 class Stresses(NamedTuple):

@@ -1,14 +1,16 @@
 """What every wall law declares: its keys in a case file, its formulas, and its material in FEBio."""
 
+from __future__ import annotations
+
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
-import numpy as np
-
-from cases.arrays import Floats
 from cases.sections.base import Section
 from cases.values.kinds import Modulus, Pressure, Switch, Thickness, Words, number
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 PoissonRatio = Annotated[float, number("a number from 0 to 0.5", lambda value: 0 <= value <= 0.5)]
 CompressibleRatio = Annotated[
@@ -74,6 +76,8 @@ class WallLaw(Section):
 
     def shear_stiffness(self, moduli: Sequence[Floats], thickness: float, poisson_ratio: float) -> Floats:
         """Return a membrane's resistance to shear, S = Σ G h of the layers with G = E/(2(1 + ν)), N/m."""
+        import numpy as np
+
         layers = self.layers_within(thickness)
         tensile = sum(layer.thickness * modulus for layer, modulus in zip(layers, moduli, strict=True))
         return np.asarray(tensile / (2 * (1 + poisson_ratio)))

@@ -1,15 +1,18 @@
 """The linear thick-walled tube of bonded layers: the composite Lamé cylinder."""
 
-from collections.abc import Sequence
-from typing import Annotated, ClassVar, Literal
+from __future__ import annotations
 
-import numpy as np
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+
 from pydantic import AfterValidator
 
-from cases.arrays import Floats
 from cases.sections.base import SAME
 from cases.sections.wall_laws.law import Layer, PoissonRatio, WallLaw
 from cases.values.kinds import Pressure, refused
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 
 def _named_apart(layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
@@ -55,6 +58,8 @@ class LayeredWall(WallLaw):
         surface, where σ_r = 0, the ratio of traction to displacement is carried inwards through the layers;
         at R₀ it gives u_r = P R₀²/β.
         """
+        import numpy as np
+
         del thickness
         edges = radius + np.concatenate([[0.0], np.cumsum([layer.thickness for layer in self.layers])])
         nu = self.poisson_ratio

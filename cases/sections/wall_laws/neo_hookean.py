@@ -1,12 +1,14 @@
 """The neo-Hookean tube: compressible as FEBio's, or with ν = ½ incompressible."""
 
-from typing import ClassVar, Literal
+from __future__ import annotations
 
-import numpy as np
+from typing import TYPE_CHECKING, ClassVar, Literal
 
-from cases.arrays import Floats
 from cases.sections.wall_laws.hyperelastic import HyperelasticWall, Stresses
 from cases.sections.wall_laws.law import PoissonRatio
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 
 class NeoHookeanWall(HyperelasticWall):
@@ -21,6 +23,8 @@ class NeoHookeanWall(HyperelasticWall):
     @staticmethod
     def stresses(lam: float, mu: float, r: Floats, t: Floats) -> Stresses:
         """W = ½μ(λ_r² + λ_θ² − 2) − μ ln J + ½λ (ln J)², J = λ_r λ_θ (FEBio's compressible neo-Hookean)."""
+        import numpy as np
+
         volume = np.log(r * t)
         push = lam * volume - mu
         return Stresses(

@@ -1,9 +1,13 @@
 """The Saint Venant–Kirchhoff tube."""
 
-from typing import ClassVar, Literal
+from __future__ import annotations
 
-from cases.arrays import Floats
+from typing import TYPE_CHECKING, ClassVar, Literal
+
 from cases.sections.wall_laws.hyperelastic import HyperelasticWall, Stresses
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 
 class SaintVenantKirchhoffWall(HyperelasticWall):

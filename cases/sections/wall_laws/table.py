@@ -1,13 +1,15 @@
 """The wall whose pressure is tabulated."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
-import numpy as np
-
-from cases.arrays import Floats
 from cases.sections.wall_laws.law import CurveWall, Layer, one_layer
 from cases.values.kinds import Modulus, WallCurveFile, refused
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 
 class TableWall(CurveWall):
@@ -37,6 +39,8 @@ class TableWall(CurveWall):
 
     def stiffness(self, moduli: Sequence[Floats], radius: float, thickness: float) -> Floats:
         """Return β = R₀²/(dR/dP) at P₀, which grows with E, Pa m."""
+        import numpy as np
+
         del thickness
         loads = self.table.pressures - self.unloaded_pressure(radius)
         slope = float(_between(loads, self.table.radii)[1](0.0))
@@ -44,13 +48,15 @@ class TableWall(CurveWall):
 
     def load_curve(self, radius: float) -> tuple[Floats, Floats, Floats]:
         """Return the table's points over P − P₀."""
+        import numpy as np
+
         loads = self.table.pressures - self.unloaded_pressure(radius)
         return loads, self.table.radii, np.asarray(_between(loads, self.table.radii)[1](loads))
 
     def refuse_unfit(self, radius: float, thickness: float) -> None:
         """Refuse a table that does not hold the unloaded radius, m."""
         del thickness
-        least, largest = self.table.radii[[0, -1]]
+        (least, _), *_, (largest, _) = self.table.rows
         if not least <= radius <= largest:
             allowed = f"a range that holds geometry.radius ({radius:g} m)"
             raise refused(f"radii from {least:g} m to {largest:g} m", allowed, key=("table",))

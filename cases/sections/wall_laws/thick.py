@@ -1,16 +1,20 @@
 """The linear thick-walled tube: Lamé's."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
-import numpy as np
-
-from cases.arrays import Floats
 from cases.sections.wall_laws.law import HomogeneousWall
+
+if TYPE_CHECKING:
+    from cases.arrays import Floats
 
 
 def lame_stiffness(youngs_modulus: Floats, poisson_ratio: float, radius: float, thickness: float) -> Floats:
     """Thick wall in plane strain (Lamé): β = R₀ E (b² − R₀²)/((1+ν)[(1−2ν)R₀² + b²]), b = R₀ + h, Pa m."""
+    import numpy as np
+
     inner, outer = radius**2, (radius + thickness) ** 2
     nu = poisson_ratio
     factor = radius * (outer - inner) / ((1 + nu) * ((1 - 2 * nu) * inner + outer))
