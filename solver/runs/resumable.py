@@ -222,6 +222,8 @@ def _join(
     with writing(result, SolverError), write_whole(result) as partial:
         write_netcdf(partial, axes, cell_fields(model, first), attributes)
         with netCDF4.Dataset(partial, "a") as stored:
+            for field in stored.variables.values():  # HDF5 would keep 16 MB of each
+                field.set_var_chunk_cache(2 * first.pressure.nbytes)
             for number, piece in enumerate(map(_read, parts)):
                 steps, sweeps = steps + piece.steps, sweeps + piece.sweeps
                 longest = max(longest, piece.longest_step)
