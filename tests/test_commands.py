@@ -134,6 +134,17 @@ def test_help_of_no_command_loads_a_library_that_is_slow_to_load():
     assert done.stderr.splitlines() == [package + libraries for package, libraries in loaded.items()]
 
 
+def test_a_check_of_a_case_loads_no_library_that_is_slow_to_load():
+    code = (
+        f"import sys, cases.command as c; c.main(sys.argv[1:]); print(*set(sys.modules) & {set(LIBRARIES)})"
+    )
+    names = ("calcification", "boileau_uta", "solid")
+    done = python("-c", code, *(str(ROOT / f"cases/{name}.yaml") for name in names))
+    assert done.stderr == ""
+    assert len(done.stdout.splitlines()) > 3
+    assert done.stdout.splitlines()[-1] == ""
+
+
 def test_a_comparison_loads_no_library_before_it_is_used():
     late = {"dask", "matplotlib", "pint", "pyvista", "scipy.interpolate", "scipy.optimize", "scipy.stats"}
     code = f"import sys, validation.compare.case; print(*sorted(set(sys.modules) & {late}))"

@@ -125,8 +125,7 @@ def run_to_file(
                 _leave(held)
                 began = monotonic()
         parts: list[Path | Piece] = [*sorted(folder.glob("*.npz")), *held.values()]
-        profile = max((widest(piece.cells.pressure) for piece in map(_read, parts)), key=np.ptp)
-        error = wall_locality_error(case, model.section_wall, profile)
+        error = wall_locality_error(case, model.section_wall, _widest_of(parts))
         told = {} if error is None else {"wall_locality_error": error}
         found = _join(case, model, parts, result, attributes | told)
     except KeyboardInterrupt:
@@ -208,6 +207,18 @@ def _read(part: Path | Piece) -> Piece:
         numbers = {name: stored[name].item() for name in _NUMBERS}
         names = [name for name in stored.files if name.startswith("kept_")]
         return Piece(cells, **numbers, kept={name.removeprefix("kept_"): stored[name] for name in names})
+
+
+def _widest_of(parts: list[Path | Piece]) -> Floats:
+    """Section pressures at the instant of a run at which they vary most along the artery, Pa, (n_x,)."""
+    profiles = []
+    for part in parts:
+        if isinstance(part, Piece):
+            profiles.append(widest(part.cells.pressure))
+        else:
+            with np.load(part) as stored:
+                profiles.append(widest(stored["pressure"]))
+    return max(profiles, key=lambda profile: float(np.ptp(profile)))
 
 
 def _join(
