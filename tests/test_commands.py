@@ -96,7 +96,7 @@ def test_help_names_what_was_called(name, capsys, monkeypatch):
     ("package", "module", "number", "said"),
     [
         ("cases", "cases.command", signal.SIGTERM, ""),
-        ("cases", "numpy", signal.SIGTERM, "interrupted\n"),
+        ("cases", "pydantic", signal.SIGTERM, "interrupted\n"),
         ("validation.converge", "numba", signal.SIGINT, NOTHING + "\n"),
         ("febio_io.feb", "febio_io.feb.command", signal.SIGTERM, ""),
         (
