@@ -15,7 +15,7 @@ from solver.errors import ModelError
 from solver.marching.columns import columns_of
 from solver.marching.godunov import Stepper, chunks, march, target_steps
 from solver.marching.godunov_setup import Setup, State, held, load, reference_state
-from solver.marching.row_stepper import offsets
+from solver.marching.row_fields import offsets
 from solver.marching.steady import steady_state
 from solver.marching.walk import Kept, Stop, kept_of, state_of
 from solver.model.boundary import NonReflectingOutlet, Outlet, ResistanceOutlet, WindkesselOutlet

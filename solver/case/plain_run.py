@@ -7,10 +7,10 @@ import numpy as np
 from cases.arrays import Floats
 from cases.sections.case import Case
 from solver.case.model import error_tolerance
-from solver.case.semi_implicit import azimuthal_flux_of
 from solver.case.start import initial_state
+from solver.marching.columns import azimuthal_flux_of
 from solver.marching.section_stepper import stepper_of
-from solver.marching.semi_implicit import equal_steps, implicitness, loosened
+from solver.marching.semi_implicit import loosened, stretches
 from solver.marching.two_modes import mean_axis_velocity
 from solver.marching.walk import require_exponents
 from solver.model.parameters import Model
@@ -39,27 +39,25 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
     times : ndarray (n,)
         Increasing; the first is where the run starts.
     reached : callable
-        Called at each of them.
+        Called after some of them, several times a second.
     """
     n_x, n_phi = model.grid.n_x, model.grid.n_phi
     area, pressure = (np.empty((times.size, n_x, n_phi)) for _ in range(2))
     flow = np.empty((times.size, n_x + 1, n_phi))
     axis = None if model.two_modes is None else np.empty(area.shape[:2])
     crossing = None if model.section_wall is None else np.empty(area.shape)
-    stepper = stepper_of(model, initial_state(case, model))
+    stepper, last = stepper_of(model, initial_state(case, model)), 0
     stepper.tolerance = loosened(stepper.tolerance, case.solver.time_step)
-    for n, end in enumerate(times.tolist()):
-        if n > 0:
-            time_step, count = equal_steps(stepper.time, end, case.solver.time_step)
-            stepper.take_through(stepper.time, time_step, count, implicitness(time_step))
-        stepper.time = end
-        stepper.save(area[n], flow[n], pressure[n])
-        if crossing is not None or axis is not None:
-            state = stepper.state()
+    for stretch in stretches(stepper, times, case.solver.time_step):
+        if stretch.failure is not None:
+            raise stretch.failure
+        states, some = stretch.states, slice(last, last + stretch.steps.size)
+        area[some], flow[some], pressure[some] = states.area, states.flow, states.pressure
         if crossing is not None:
-            crossing[n] = azimuthal_flux_of(model, state)
-        if axis is not None and state.axis_velocity is not None:
-            axis[n] = 0.5 * (state.axis_velocity[1:] + state.axis_velocity[:-1])
+            crossing[some] = azimuthal_flux_of(model, states)
+        if axis is not None and states.axis_velocity is not None:
+            axis[some] = 0.5 * (states.axis_velocity[:, 1:] + states.axis_velocity[:, :-1])
+        last = some.stop
         reached()
     through = flow[:, 1:] + flow[:, :-1]
     through *= 0.5

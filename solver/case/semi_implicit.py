@@ -10,7 +10,6 @@ from solver.case.model import error_tolerance, monitor_of
 from solver.case.start import initial_state
 from solver.marching.semi_implicit import snapshots
 from solver.marching.walk import Kept, Stop, kept_of, state_of
-from solver.model.cross_flow import azimuthal_flux
 from solver.model.parameters import Model, State
 
 
@@ -30,14 +29,5 @@ def walk_semi_implicit(case: Case, model: Model, times: Floats, kept: Kept | Non
             snapshot.longest_step,
             kept_of(snapshot.state)
             | {"next_step": np.asarray(snapshot.next_step), "history": monitor.history},
-            azimuthal_flux_of(model, snapshot.state),
+            snapshot.azimuthal_flux,
         )
-
-
-def azimuthal_flux_of(model: Model, state: State) -> Floats | None:
-    """W of the cells, m²/s; None where rows keep their own blood."""
-    if model.section_wall is None or state.pressure is None:
-        return None
-    return azimuthal_flux(
-        model.section_wall, model.grid.dx, model.grid.dphi, state.pressure[:, 0], state.flow
-    )

@@ -1,16 +1,12 @@
 """A state in the kernels' arrays, and what moves it."""
 
-import math
-from collections.abc import Callable
-from typing import Any, NamedTuple, TypedDict
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from cases.arrays import Floats
+from cases.arrays import Floats, Integers
 from solver.errors import (
     BeyondWallTable,
-    ModelError,
     NoAdmissibleProfile,
     NotConverged,
     NotFinite,
@@ -18,21 +14,18 @@ from solver.errors import (
     WallCollapse,
 )
 from solver.marching import two_modes
-from solver.model.boundary import NonReflectingOutlet, PressureOutlet, ResistanceOutlet, WindkesselOutlet
-from solver.model.parameters import Model, State
+from solver.marching.kernel import Kernel
+from solver.marching.row_fields import offsets, parameters, parts_of
+from solver.model.parameters import Model, State, States
 from solver.schemes import layout
+from solver.schemes.course import Course, Record, joined, record, split
 from solver.schemes.rows.step import advance
-from solver.schemes.two_modes import layout as mode_layout
 from solver.schemes.two_modes import rows as mode_rows
 
 TOLERANCE = 3e-8  # relative error of P and Q (root mean square) at which a step's iteration ends
 MAX_SWEEPS = 60
+DAMPING_RATE = 20.0  # 1/s: θ = ½ + rate·Δt damps the pulse wave and stays second order in time
 
-INLETS = {
-    "velocity": layout.VELOCITY_INLET,
-    "flow": layout.FLOW_INLET,
-    "pressure": layout.PRESSURE_INLET,
-}
 FAILURES: dict[int, type[RunFailure]] = {
     layout.NO_ADMISSIBLE_PROFILE: NoAdmissibleProfile,
     layout.WALL_COLLAPSE: WallCollapse,
@@ -43,12 +36,29 @@ FAILURES: dict[int, type[RunFailure]] = {
 CELL_FAILURES = (layout.NO_ADMISSIBLE_PROFILE, layout.WALL_COLLAPSE, layout.BEYOND_WALL_TABLE)
 
 
-class Kernel(NamedTuple):
-    """A scheme's kernel, and the parameters and the workspace that it is called with."""
+class Stretch(NamedTuple):
+    """States after intervals of a run, and how it came to them.
 
-    advance: Callable[..., tuple[int, int, int, int, int]]
-    parameters: Any
-    workspace: Any
+    Attributes
+    ----------
+    states : States
+        n of them.
+    longest_step : ndarray (n,)
+        Δt of the interval before, s.
+    mass_defect : ndarray (n,)
+        Inflow − outflow − change of volume since the state before, over the inflow (0 at rest).
+    steps, sweeps : ndarray (n,)
+        Steps taken so far, and sweeps of their iterations in all.
+    failure : RunFailure or None
+        What ended the run after these states.
+    """
+
+    states: States
+    longest_step: Floats
+    mass_defect: Floats
+    steps: Integers
+    sweeps: Integers
+    failure: RunFailure | None = None
 
 
 class Stepper:
@@ -67,55 +77,46 @@ class Stepper:
 
     def __init__(self, model: Model, state: State) -> None:
         self.model = model
-        self.time = state.time
         self.steps = 0
         self.sweeps = 0
         self.tolerance = TOLERANCE
         self._kernel = self._prepared()
-        self._fields = self._fields_of(state)
+        self._state = joined(self._kernel.shapes)
+        self._parts = split(self._state, self._kernel.shapes)
+        self._fields = self._kernel.fields(*self._parts)
+        self.restore(state)
 
     def _prepared(self) -> Kernel:
         """Bind the scheme's kernel to the model's parameters and a workspace of its own."""
-        grid = self.model.grid
-        own, scratch = parameters(self.model), layout.workspace(grid.n_x, grid.n_phi)
-        if self.model.two_modes is None:
-            return Kernel(advance, own, scratch)
-        both = mode_layout.workspace(scratch, grid.n_x, grid.n_phi)
-        return Kernel(mode_rows.advance, two_modes.parameters(own, self.model.two_modes), both)
+        n_x, n_phi = self.model.grid.n_x, self.model.grid.n_phi
+        shapes = (n_x, n_phi), (n_x + 1, n_phi), (n_x, n_phi), (n_phi,), (n_phi,), (1,)
+        scratch = layout.workspace(n_x, n_phi)
+        kernel = Kernel(advance, parameters(self.model), scratch, layout.Fields, shapes)
+        return two_modes.beside(self.model, kernel, mode_rows.advance)
 
-    def _fields_of(self, state: State) -> Any:
-        """Arrays of the kernel from a state."""
-        fields = fields_of(self.model, state)
-        return fields if self.model.two_modes is None else two_modes.fields_of(fields, self.model, state)
+    def _parts_of(self, state: State) -> tuple[Floats, ...]:
+        """Parts of the scheme's own fields from a state."""
+        return parts_of(self.model, state)
+
+    def _states_of(self, times: Floats, whole: Floats) -> States:
+        """States at times (n,), s, of which ``whole`` (n, size) holds the fields."""
+        area, flow, pressure, inlet, outlet, reservoir, *axis = split(whole, self._kernel.shapes)
+        known = two_modes.own_axis(self.model, axis)
+        return States(times, area, flow, pressure, inlet, outlet, reservoir[:, 0], known)
+
+    def states(self) -> States:
+        """Return an independent copy of the state, as one of several."""
+        return self._states_of(np.array([self.time]), self._state[None].copy())
 
     def state(self) -> State:
         """Return an independent copy of the state."""
-        f = self._of_scheme()
-        return State(
-            self.time,
-            f.area.copy(),
-            f.flow.copy(),
-            f.pressure.copy(),
-            f.inlet_pressure.copy(),
-            f.outlet_pressure.copy(),
-            float(f.reservoir[0]),
-            self._axis_velocity(),
-        )
-
-    def _of_scheme(self) -> Any:
-        """Arrays of the scheme, without those of the profiles."""
-        return self._fields if self.model.two_modes is None else self._fields.base
-
-    def _axis_velocity(self) -> Floats | None:
-        """Return D on faces where it is an unknown of its own."""
-        modes = self.model.two_modes
-        if modes is None or modes.closure == "mean":
-            return None
-        return np.array(self._fields.axis_velocity)
+        return self.states().at(0)
 
     def restore(self, state: State) -> None:
         """Go back to a state."""
-        self._fields = self._fields_of(state)
+        parts = *self._parts_of(state), *two_modes.axis_of(self.model, state)
+        for target, part in zip(self._parts, parts, strict=True):
+            target[...] = part
         self.time = state.time
 
     def advance_through(self, begin: float, time_step: float, count: int, theta: float) -> float:
@@ -123,18 +124,8 @@ class Stepper:
 
         Returns and raises as :meth:`advance`.
         """
-        values, outlet_offsets = self._prescribed(begin, time_step, count)
-        return self.advance(values, time_step, theta, outlet_offsets)
-
-    def take_through(self, begin: float, time_step: float, count: int, theta: float) -> None:
-        """Take steps as :meth:`advance_through`, without the mass defect."""
-        values, outlet_offsets = self._prescribed(begin, time_step, count)
-        self.take(values, time_step, theta, outlet_offsets)
-
-    def _prescribed(self, begin: float, time_step: float, count: int) -> tuple[Floats, Floats]:
-        """What the inlet and the outlet prescribe at the end of each of ``count`` steps."""
         times = begin + time_step * np.arange(1, count + 1)
-        return self.model.inlet.signal(times), offsets(self.model, times)
+        return self.advance(self.model.inlet.signal(times), time_step, theta, offsets(self.model, times))
 
     def advance(
         self, inlet_values: Floats, time_step: float, theta: float, outlet_offsets: Floats | None = None
@@ -151,166 +142,85 @@ class Stepper:
         RunFailure
             NoAdmissibleProfile, WallCollapse, BeyondWallTable, NotConverged or NotFinite, with time and cell.
         """
-        values = np.ascontiguousarray(inlet_values, dtype=float)
         if outlet_offsets is None:
-            outlet_offsets = offsets(self.model, self.time + time_step * np.arange(1, values.size + 1))
-        before = lumen_volume(self.model, self._fields.area)
-        self.take(values, time_step, theta, outlet_offsets)
-        change = lumen_volume(self.model, self._fields.area) - before
-        return mass_defect(self.model, self._kernel.workspace.exchanged, change, time_step)
+            outlet_offsets = offsets(self.model, self.time + time_step * np.arange(1, len(inlet_values) + 1))
+        values, offset = np.array([inlet_values, outlet_offsets], dtype=float)
+        step, theta_of = np.array([[time_step], [theta]], dtype=float)
+        before = lumen_volume(self.model, self._parts[0])
+        kept, _, failure = self._taken(np.array([self.time]), step, theta_of, values[None], offset[None])
+        if failure is not None:
+            raise failure
+        change = lumen_volume(self.model, self._parts[0]) - before
+        return float(mass_defect(self.model, kept.exchanged[0], change, time_step))
 
-    def take(self, values: Floats, time_step: float, theta: float, outlet_offsets: Floats) -> None:
-        """Take steps as :meth:`advance`, without the mass defect."""
-        stepping = layout.Stepping(float(time_step), float(theta), self.tolerance, MAX_SWEEPS)
-        kernel = self._kernel
-        kernel.workspace.exchanged[:] = 0.0
-        status, i, j, steps, sweeps = kernel.advance(
-            kernel.parameters, stepping, kernel.workspace, self._fields, values, outlet_offsets
+    def march(self, times: Floats, time_step: Floats, theta: Floats, count: int) -> Stretch:
+        """Take ``count`` equal steps of Δt and θ (n,) from each of ``times`` (n + 1,), s, to the next."""
+        steps, sweeps, volume = self.steps, self.sweeps, lumen_volume(self.model, self._parts[0])
+        ends = times[:-1, None] + time_step[:, None] * np.arange(1, count + 1)
+        values = np.ascontiguousarray(self.model.inlet.signal(ends), dtype=float)
+        prescribed = values, offsets(self.model, ends)
+        kept, done, failure = self._taken(times[:-1], time_step, theta, *prescribed)
+        if failure is None:
+            self.time = float(times[-1])
+        states = self._states_of(times[1 : done + 1], kept.states[:done])
+        volumes = np.append(volume, lumen_volume(self.model, states.area))
+        change = volumes[1:] - volumes[:-1]
+        return Stretch(
+            states,
+            time_step[:done],
+            mass_defect(self.model, kept.exchanged[:done], change, time_step[:done]),
+            steps + count * np.arange(1, done + 1),
+            sweeps + np.cumsum(kept.sweeps[:done]),
+            failure,
         )
-        self.time += steps * time_step
+
+    def _taken(
+        self, begins: Floats, time_step: Floats, theta: Floats, values: Floats, outlet_offsets: Floats
+    ) -> tuple[Record, int, RunFailure | None]:
+        """Take the steps of intervals from times (n,), s: one per value at a step's end, (n, steps).
+
+        Returns
+        -------
+        record, done, failure
+            What was kept, of how many intervals, and what ended the run after them.
+        """
+        kernel, count = self._kernel, values.shape[1]
+        course = Course(time_step, theta, values, outlet_offsets, self.tolerance, MAX_SWEEPS)
+        kept = record(begins.size, self._state.size)
+        kernel.workspace.exchanged[:] = 0.0
+        status, i, j, steps = kernel.advance(
+            kernel.parameters, course, kernel.workspace, self._fields, self._state, kept
+        )
         self.steps += steps
-        self.sweeps += sweeps
+        self.sweeps += int(kept.sweeps.sum())
+        done = steps // count
+        last, failure = min(done, begins.size - 1), None
+        self.time = float(begins[last] + (steps - last * count) * time_step[last])
         if status != layout.OK:
-            raise failure(status, self.time + time_step, i, j)
-        moved = self._fields.area, self._fields.flow  # NaN and ∞ stay in a sum
-        if not all(math.isfinite(np.add.reduce(each, axis=None)) for each in moved):
-            raise NotFinite(self.time, 0, 0)
-
-    def save(self, area: Floats, flow: Floats, pressure: Floats) -> None:
-        """Copy A and P of cells (n_x, n_phi) and Q of faces (n_x + 1, n_phi) of the state."""
-        f = self._of_scheme()
-        area[...], flow[...], pressure[...] = f.area, f.flow, f.pressure
+            failure = failure_of(status, self.time + float(time_step[last]), i, j)
+        finite = np.isfinite(np.add.reduce(kept.states[:done], axis=1))  # NaN and ∞ stay in a sum
+        if not finite.all():
+            done = int(np.argmin(finite))
+            self.time = float(begins[done] + count * time_step[done])
+            failure = NotFinite(self.time, 0, 0)
+        return kept, done, failure
 
 
-def failure(status: int, time: float, i: int, j: int) -> RunFailure:
+def failure_of(status: int, time: float, i: int, j: int) -> RunFailure:
     """Error that names a kernel's status, time (s) and cell, which kernels count from 0."""
     cell = (i + 1, j + 1) if status in CELL_FAILURES else (0, 0)
     hint = "try a smaller time_step" if status == layout.NOT_CONVERGED else ""
     return FAILURES[status](time, *cell, hint)
 
 
-def mass_defect(model: Model, exchanged: Floats, change: float, time_step: float) -> float:
-    """Inflow − outflow − change of volume over the inflow; of volumes in m³, 0 at rest."""
-    inflow, outflow = exchanged
+def mass_defect(model: Model, exchanged: Floats, change: Floats, time_step: Floats | float) -> Floats:
+    """Inflow − outflow − change of volume over the inflow, 0 at rest; of volumes (..., 2) and (...), m³."""
+    inflow, outflow = exchanged[..., 0], exchanged[..., 1]
     rest = layout.REST_VELOCITY * np.pi * model.radius**2 * time_step
-    return float((inflow - outflow - change) / max(abs(inflow), abs(outflow), rest))
+    largest = np.maximum(np.maximum(np.abs(inflow), np.abs(outflow)), rest)
+    return np.asarray((inflow - outflow - change) / largest)
 
 
-def lumen_volume(model: Model, area: Floats) -> float:
-    """Volume of the lumen, ∫∫ ½A dφ dx, m³."""
-    return float(model.grid.sector * model.grid.dx * np.add.reduce(area, axis=None))
-
-
-def offsets(model: Model, times: ArrayLike) -> Floats:
-    """Return what the outlet prescribes at times: P_res, or the pressure itself, Pa; 0 where it has none."""
-    times = np.asarray(times, dtype=float)
-    outlet = model.outlet
-    if isinstance(outlet, PressureOutlet):
-        return np.ascontiguousarray(outlet.signal(times), dtype=float)
-    if isinstance(outlet, ResistanceOutlet):
-        offset = outlet.offset(times) if callable(outlet.offset) else np.full(times.shape, outlet.offset)
-        return np.ascontiguousarray(offset, dtype=float)
-    return np.zeros(times.shape)
-
-
-class OutletNumbers(TypedDict):
-    """What kernels must know of an outlet; see :class:`solver.schemes.layout.Parameters`."""
-
-    outlet_kind: int
-    resistance: float
-    distal_resistance: float
-    capacitance: float
-    venous_pressure: float
-
-
-def outlet_numbers(model: Model) -> OutletNumbers:
-    """Outlet of a model for the kernels; a prescribed pressure is an offset without resistance."""
-    outlet = model.outlet
-    kind, resistance, distal, capacitance, venous = layout.SECTION_RESISTANCE, 0.0, 1.0, 1.0, 0.0
-    if isinstance(outlet, ResistanceOutlet):
-        by_row = outlet.flow == "row"
-        kind = layout.ROW_RESISTANCE if by_row else layout.SECTION_RESISTANCE
-        resistance = outlet.resistance
-    elif isinstance(outlet, WindkesselOutlet):
-        kind, resistance = layout.WINDKESSEL, outlet.proximal_resistance
-        distal, capacitance = outlet.distal_resistance, outlet.compliance
-        venous = outlet.venous_pressure
-    elif isinstance(outlet, NonReflectingOutlet):
-        kind = layout.NON_REFLECTING
-    return OutletNumbers(
-        outlet_kind=kind,
-        resistance=float(resistance),
-        distal_resistance=float(distal),
-        capacitance=float(capacitance),
-        venous_pressure=float(venous),
-    )
-
-
-def parameters(model: Model) -> layout.Parameters:
-    """Parameters of the kernels from a model."""
-    table = model.wall_table
-    compliance = layout.aligned((model.grid.n_x, model.grid.n_phi))
-    compliance[...] = model.radius**2 / model.stiffness
-    return layout.Parameters(
-        dx=float(model.grid.dx),
-        dphi=float(model.grid.dphi),
-        sector=float(model.grid.sector),
-        mirrored=model.grid.mirrored,
-        radius=float(model.radius),
-        reference_pressure=float(model.reference_pressure),
-        density=float(model.density),
-        kinematic_viscosity=float(model.viscosity / model.density),
-        compliance=compliance,
-        table=np.zeros((model.grid.n_x, model.grid.n_phi, 0, 2)) if table is None else table.values,
-        table_start=0.0 if table is None else float(table.start),
-        table_step=1.0 if table is None else float(table.step),
-        fixed_exponent=float(model.fixed_exponent or 0.0),
-        inlet_kind=INLETS[model.inlet.kind],
-        **outlet_numbers(model),
-    )
-
-
-def fields_of(model: Model, state: State) -> layout.Fields:
-    """Arrays of the kernels from a state; pressures that it lacks follow from area and flow.
-
-    Raises
-    ------
-    ModelError
-        If the state is of another grid.
-    NotFinite
-        If it is not finite.
-    """
-    grid = model.grid
-    shapes = {"area": (grid.n_x, grid.n_phi), "flow": (grid.n_x + 1, grid.n_phi)}
-    for name, shape in shapes.items():
-        found = getattr(state, name)
-        if found.shape != shape:
-            raise ModelError(f"the state's {name} has shape {found.shape}; the model's grid needs {shape}")
-        if not np.all(np.isfinite(found)):
-            raise NotFinite(state.time, 0, 0, f"{name} of the initial state")
-    if not np.all(state.area > 0):
-        raise ModelError("the state's area must be positive in every cell")
-    pressure = model.pressure(state.area) if state.pressure is None else state.pressure
-    section = grid.sector * float(np.sum(state.flow[-1]))
-    outlet = _outlet_pressure(model, state, pressure, section)
-    inlet = pressure[0] if state.inlet_pressure is None else state.inlet_pressure
-    reservoir = state.reservoir
-    if reservoir is None:
-        proximal = getattr(model.outlet, "proximal_resistance", 0.0)
-        reservoir = float(np.mean(outlet)) - proximal * section
-    parts = (state.area, state.flow, pressure, inlet, outlet, np.array([reservoir]))
-    fields = layout.Fields(*(layout.aligned(part.shape) for part in parts))
-    for target, part in zip(fields, parts, strict=True):
-        target[...] = part
-    return fields
-
-
-def _outlet_pressure(model: Model, state: State, pressure: Floats, section: float) -> Floats:
-    if state.outlet_pressure is not None:
-        return state.outlet_pressure
-    outlet = model.outlet
-    if isinstance(outlet, ResistanceOutlet):
-        offset = float(offsets(model, [state.time])[0])
-        flow = state.flow[-1] if outlet.flow == "row" else np.full(model.grid.n_phi, section)
-        return np.asarray(offset + outlet.resistance * flow)
-    return np.asarray(pressure[-1])
+def lumen_volume(model: Model, area: Floats) -> Floats:
+    """Volume of the lumen, ∫∫ ½A dφ dx, m³, of A (..., n_x, n_phi)."""
+    return np.asarray(model.grid.sector * model.grid.dx * np.add.reduce(area, axis=(-2, -1)))

@@ -1,19 +1,19 @@
 """A state with one pressure a section in the kernels' arrays, and what moves it."""
 
-from typing import Any
-
 import numpy as np
 
 from cases.arrays import Floats
 from solver.errors import ModelError
 from solver.marching import two_modes
-from solver.marching.row_stepper import INLETS, Kernel, Stepper, outlet_numbers
-from solver.marching.row_stepper import fields_of as row_fields
-from solver.model.parameters import Model, State
+from solver.marching.kernel import Kernel
+from solver.marching.row_fields import INLETS, outlet_numbers
+from solver.marching.row_fields import parts_of as parts_of_rows
+from solver.marching.row_stepper import Stepper
+from solver.model.parameters import Model, State, States
 from solver.schemes import layout
+from solver.schemes.course import split
 from solver.schemes.sections import layout as section_layout
 from solver.schemes.sections.step import advance
-from solver.schemes.two_modes import layout as mode_layout
 from solver.schemes.two_modes import sections as mode_sections
 
 TOLERANCE = 1e-7  # relative error of P and Q (root mean square) at which a step's iteration ends
@@ -27,36 +27,20 @@ class SectionStepper(Stepper):
         self.tolerance = TOLERANCE if tolerance is None else tolerance
 
     def _prepared(self) -> Kernel:
-        n_x, n_phi, modes = self.model.grid.n_x, self.model.grid.n_phi, self.model.two_modes
-        own, scratch = parameters(self.model), section_layout.workspace(n_x, n_phi)
-        if modes is None:
-            return Kernel(advance, own, scratch)
-        both = mode_layout.workspace(scratch, n_x, n_phi)
-        return Kernel(mode_sections.advance, two_modes.parameters(own, modes), both)
+        n_x, n_phi = self.model.grid.n_x, self.model.grid.n_phi
+        shapes = (n_x, n_phi), (n_x + 1, n_phi), (n_x + 2,), (1,)
+        scratch = section_layout.workspace(n_x, n_phi)
+        kernel = Kernel(advance, parameters(self.model), scratch, section_layout.Fields, shapes)
+        return two_modes.beside(self.model, kernel, mode_sections.advance)
 
-    def _fields_of(self, state: State) -> Any:
-        fields = fields_of(self.model, state)
-        return fields if self.model.two_modes is None else two_modes.fields_of(fields, self.model, state)
+    def _parts_of(self, state: State) -> tuple[Floats, ...]:
+        return parts_of(self.model, state)
 
-    def save(self, area: Floats, flow: Floats, pressure: Floats) -> None:
-        """Copy A and P of cells (n_x, n_phi) and Q of faces (n_x + 1, n_phi) of the state."""
-        f = self._of_scheme()
-        area[...], flow[...], pressure[...] = f.area, f.flow, f.pressure[1:-1, None]
-
-    def state(self) -> State:
-        """Return an independent copy of the state."""
-        f, n_phi = self._of_scheme(), self.model.grid.n_phi
-        pressure = np.repeat(f.pressure[:, None], n_phi, axis=1)
-        return State(
-            self.time,
-            f.area.copy(),
-            f.flow.copy(),
-            pressure[1:-1].copy(),
-            pressure[0].copy(),
-            pressure[-1].copy(),
-            float(f.reservoir[0]),
-            self._axis_velocity(),
-        )
+    def _states_of(self, times: Floats, whole: Floats) -> States:
+        area, flow, sections, reservoir, *axis = split(whole, self._kernel.shapes)
+        pressure = np.repeat(sections[..., None], self.model.grid.n_phi, axis=-1)
+        parts = pressure[:, 1:-1], pressure[:, 0], pressure[:, -1], reservoir[:, 0]
+        return States(times, area, flow, *parts, two_modes.own_axis(self.model, axis))
 
 
 def parameters(model: Model) -> section_layout.Parameters:
@@ -87,15 +71,15 @@ def parameters(model: Model) -> section_layout.Parameters:
     )
 
 
-def fields_of(model: Model, state: State) -> section_layout.Fields:
-    """Arrays of the kernels from a state, whose pressures are averaged over φ.
+def parts_of(model: Model, state: State) -> section_layout.Fields:
+    """What the kernels' fields hold in a state, whose pressures are averaged over φ.
 
     Raises
     ------
     ModelError, NotFinite
         If the state is of another grid, or not finite.
     """
-    cells = row_fields(model, state)
+    cells = parts_of_rows(model, state)
     pressure = np.concatenate(
         [[cells.inlet_pressure.mean()], cells.pressure.mean(axis=1), [cells.outlet_pressure.mean()]]
     )

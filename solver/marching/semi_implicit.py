@@ -2,15 +2,15 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cases.arrays import Floats
 from solver.errors import ModelError, NotConverged, RunFailure
-from solver.marching.columns import columns_of
-from solver.marching.row_stepper import Stepper
+from solver.marching.columns import azimuthal_flux_of, columns_of
+from solver.marching.row_stepper import Stepper, Stretch
 from solver.marching.section_stepper import stepper_of
 from solver.marching.steady import steady_state
 from solver.model.diagnostics import Columns, Diagnostics, Limits, Monitor, by_name
@@ -21,6 +21,7 @@ SLOWEST_GROWTH, FASTEST_GROWTH = 0.2, 2.0  # of Δt from one step to the next
 DAMPING_RATE = 20.0  # 1/s: θ = ½ + rate·Δt damps the pulse wave and stays second order in time
 FINE_STEP = 1e-3  # s: an iteration of longer steps may err more, as their time error does
 LOOSEST = 300.0  # times the tolerance of fine steps
+MOST_STATES, MOST_CELL_STEPS = 64, 1_000_000  # of one call: 0.05 s or so
 
 Progress = Callable[[float, float], None]
 
@@ -32,7 +33,7 @@ class Snapshot:
     Attributes
     ----------
     state : State
-        An independent copy.
+        A copy; arrays are views.
     columns : Columns
         The same on inlet, cells and outlet.
     diagnostics : Diagnostics
@@ -43,6 +44,8 @@ class Snapshot:
         Longest Δt since the state before, s.
     next_step : float
         Δt that the error control tries next, s.
+    azimuthal_flux : ndarray (n_x, n_phi) or None
+        W of the cells, m²/s; None where rows keep their own blood.
     """
 
     state: State
@@ -52,6 +55,7 @@ class Snapshot:
     sweeps: int
     longest_step: float
     next_step: float
+    azimuthal_flux: Floats | None
 
 
 @dataclass(frozen=True)
@@ -116,10 +120,29 @@ def loosened(tolerance: float, time_step: float) -> float:
     return tolerance * min(max(1.0, (time_step / FINE_STEP) ** 3), LOOSEST)
 
 
-def equal_steps(begin: float, end: float, time_step: float) -> tuple[float, int]:
-    """Δt, s, and number of the equal steps, not longer than ``time_step``, between two times."""
-    count = max(1, int(np.ceil((end - begin) / time_step * (1 - 1e-12))))
-    return (end - begin) / count, count
+def stretches(stepper: Stepper, times: Floats, time_step: float) -> Iterator[Stretch]:
+    """States at ``times`` (n,), s, the first of which is there, by equal steps not longer than ``time_step``.
+
+    As many at once as a call of the kernel, which answers to nobody, brings in a fraction of a second.
+    """
+    yield _here(stepper)
+    counts = np.maximum(1, np.ceil(np.diff(times) / time_step * (1 - 1e-12)).astype(np.int64))
+    steps = np.diff(times) / counts
+    theta = np.array([implicitness(step) for step in steps.tolist()])
+    cells, first = stepper.model.stiffness.size, 0
+    while first < counts.size:
+        count = int(counts[first])
+        most = min(MOST_STATES, max(1, MOST_CELL_STEPS // (count * cells)))
+        last = first + sum(1 for _ in takewhile(count.__eq__, counts[first : first + most].tolist()))
+        some = slice(first, last)
+        yield stepper.march(times[first : last + 1], steps[some], theta[some], count)
+        first = last
+
+
+def _here(stepper: Stepper, longest_step: float = 0.0, defect: float = 0.0) -> Stretch:
+    """State that a stepper is in."""
+    counts = np.array([[stepper.steps], [stepper.sweeps]])
+    return Stretch(stepper.states(), *np.array([[longest_step], [defect]]), *counts)
 
 
 def snapshots(
@@ -145,23 +168,37 @@ def snapshots(
         stepper.tolerance = loosened(stepper.tolerance, time_step)
     wanted = time_step if first_step is None else first_step
     watch = monitor or Monitor(model, Limits())
-    defect = longest = 0.0
-
-    def snapshot() -> Snapshot:
-        state = stepper.state()
-        columns = columns_of(model, state)
-        diagnostics = watch.look(state.time, columns, longest, defect)
-        return Snapshot(state, columns, diagnostics, stepper.steps, stepper.sweeps, longest, wanted)
-
-    yield snapshot()
+    if error_tolerance is None:
+        for stretch in stretches(stepper, times, time_step):
+            yield from _watched(watch, stretch, wanted)
+        return
+    yield from _watched(watch, _here(stepper), wanted)
     for begin, end in pairwise(times.tolist()):
-        if error_tolerance is None:
-            longest, count = equal_steps(begin, end, time_step)
-            defect = stepper.advance_through(begin, longest, count, implicitness(longest))
-        else:
-            defect, longest, wanted = _adaptive(stepper, begin, end, time_step, wanted, error_tolerance)
-        stepper.time = float(end)
-        yield snapshot()
+        defect, longest, wanted = _adaptive(stepper, begin, end, time_step, wanted, error_tolerance)
+        stepper.time = end
+        yield from _watched(watch, _here(stepper, longest, defect), wanted)
+
+
+def _watched(watch: Monitor, stretch: Stretch, next_step: float) -> Iterator[Snapshot]:
+    """Snapshots of a stretch; raises what ended it, after them."""
+    if stretch.failure is not None and not stretch.steps.size:
+        raise stretch.failure
+    states, longest = stretch.states, stretch.longest_step
+    columns, flux = columns_of(watch.model, states), azimuthal_flux_of(watch.model, states)
+    followed = watch.follow(states.times, longest, stretch.mass_defect, columns)
+    for k, diagnostics in enumerate(followed):
+        yield Snapshot(
+            states.at(k),
+            columns.at(k),
+            diagnostics,
+            int(stretch.steps[k]),
+            int(stretch.sweeps[k]),
+            float(longest[k]),
+            next_step,
+            None if flux is None else flux[k],
+        )
+    if stretch.failure is not None:
+        raise stretch.failure
 
 
 def _adaptive(

@@ -3,7 +3,7 @@
 import numpy as np
 
 from solver.errors import NotSteady, RunFailure
-from solver.marching.row_stepper import offsets
+from solver.marching.row_fields import offsets
 from solver.marching.section_stepper import stepper_of
 from solver.model.boundary import NonReflectingOutlet, ResistanceOutlet
 from solver.model.parameters import Model, State, uniform_state

@@ -12,31 +12,31 @@ from solver.wall.sections import SectionWall
 
 
 def azimuthal_flux(wall: SectionWall, dx: float, dphi: float, pressure: Floats, flow: Floats) -> Floats:
-    """W at cell centres at one instant, m²/s.
+    """W at cell centres, m²/s.
 
     Parameters
     ----------
     wall : SectionWall
     dx, dphi : float
         m, rad.
-    pressure : ndarray (n_x,)
+    pressure : ndarray (..., n_x)
         Section pressures, Pa.
-    flow : ndarray (n_x + 1, n_phi)
+    flow : ndarray (..., n_x + 1, n_phi)
         Q on faces, m³/s.
 
     Returns
     -------
-    ndarray (n_x, n_phi)
+    ndarray (..., n_x, n_phi)
     """
     slope = wall.area_and_slope(pressure)[1]
-    divergence = np.diff(flow, axis=0) / dx
-    share = slope / slope.sum(axis=1, keepdims=True)
-    rise = share * divergence.sum(axis=1, keepdims=True) - divergence  # ∂_φW
-    after = np.cumsum(rise, axis=1) * dphi
-    before = np.roll(after, 1, axis=1)
-    before[:, 0] = 0.0
+    divergence = np.diff(flow, axis=-2) / dx
+    share = slope / slope.sum(axis=-1, keepdims=True)
+    rise = share * divergence.sum(axis=-1, keepdims=True) - divergence  # ∂_φW
+    after = np.cumsum(rise, axis=-1) * dphi
+    before = np.roll(after, 1, axis=-1)
+    before[..., 0] = 0.0
     centre = 0.5 * (before + after)
-    return np.asarray(centre - after.mean(axis=1, keepdims=True))
+    return np.asarray(centre - after.mean(axis=-1, keepdims=True))
 
 
 def azimuthal_velocity(radius: Floats, exponent: Floats, flux: Floats, y: Floats) -> Floats:

@@ -1,6 +1,7 @@
 """Everything that determines a run of the reduced model, and its state, in SI."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -155,6 +156,32 @@ class State:
             copied(self.outlet_pressure),
             self.reservoir,
             copied(self.axis_velocity),
+        )
+
+
+class States(NamedTuple):
+    """States at times (n,), s, one after another; parts as those of :class:`State`, (n, …)."""
+
+    times: Floats
+    area: Floats
+    flow: Floats
+    pressure: Floats
+    inlet_pressure: Floats
+    outlet_pressure: Floats
+    reservoir: Floats
+    axis_velocity: Floats | None = None
+
+    def at(self, k: int) -> State:
+        """State k; its arrays are views."""
+        return State(
+            float(self.times[k]),
+            self.area[k],
+            self.flow[k],
+            self.pressure[k],
+            self.inlet_pressure[k],
+            self.outlet_pressure[k],
+            float(self.reservoir[k]),
+            None if self.axis_velocity is None else self.axis_velocity[k],
         )
 
 

@@ -82,7 +82,7 @@ class SectionWall:
         return np.pad(self.step * np.cumsum(pieces, axis=1), ((0, 0), (1, 0)))
 
     def area_integral(self, pressure: Floats) -> Floats:
-        """Return ∫ΣA dP of every section from the table's first pressure to section pressures (n_x,), N.
+        """Return ∫ΣA dP of every section from the table's first pressure to section pressures (..., n_x), N.
 
         Raises
         ------
@@ -90,13 +90,13 @@ class SectionWall:
             Beyond the table.
         """
         knot, t = self._place(pressure)
-        i = np.arange(knot.size)
+        i = np.arange(knot.shape[-1])
         a0, d0, curve, twist = self._cubic(self.sums, knot)
         rise = t * (a0 + t * (d0 / 2 + t * (curve / 3 + t * twist / 4)))
         return np.asarray(self._work[i, knot] + self.step * rise)
 
     def area(self, pressure: Floats) -> Floats:
-        """Return A of every cell at section pressures (n_x,), (n_x, n_phi), m².
+        """Return A of every cell at section pressures (..., n_x), (..., n_x, n_phi), m².
 
         Raises
         ------
@@ -106,7 +106,7 @@ class SectionWall:
         return self.area_and_slope(pressure)[0]
 
     def area_and_slope(self, pressure: Floats) -> tuple[Floats, Floats]:
-        """Return A, m², and dA/dP, m²/Pa, of every cell at section pressures (n_x,).
+        """Return A, m², and dA/dP, m²/Pa, of every cell at section pressures (..., n_x).
 
         Raises
         ------
@@ -115,7 +115,7 @@ class SectionWall:
         """
         knot, t = self._place(pressure)
         a0, d0, curve, twist = self._cubic(self.values, knot)
-        t = t[:, None]
+        t = t[..., None]
         area = a0 + t * (d0 + t * (curve + t * twist))
         return area, (d0 + t * (2 * curve + 3 * t * twist)) / self.step
 
@@ -125,16 +125,17 @@ class SectionWall:
         last = self.values.shape[1] - 2
         outside = np.flatnonzero(~((position >= 0) & (position <= last + 1)))
         if outside.size:
+            section, needed = outside[0] % position.shape[-1], np.ravel(pressure)[outside[0]]
             raise ModelError(
                 f"the wall law is known from {self.start:g} to {self.end:g} Pa; "
-                f"section i = {outside[0] + 1} needs {pressure[outside[0]]:g} Pa"
+                f"section i = {section + 1} needs {needed:g} Pa"
             )
         knot = np.minimum(position.astype(np.int64), last)
         return knot, position - knot
 
     def _cubic(self, table: Floats, knot: Integers) -> tuple[Floats, Floats, Floats, Floats]:
         """Coefficients of A between knots, of a table (n_x, knots, 2, …), in powers of a step's share."""
-        i = np.arange(knot.size)
+        i = np.arange(knot.shape[-1])
         a0, d0 = table[i, knot, 0], table[i, knot, 1] * self.step
         a1, d1 = table[i, knot + 1, 0], table[i, knot + 1, 1] * self.step
         return a0, d0, 3 * (a1 - a0) - 2 * d0 - d1, d0 + d1 - 2 * (a1 - a0)

@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 from cases.arrays import Floats
 from solver.errors import ModelError
-from solver.marching.row_stepper import offsets
+from solver.marching.row_fields import offsets
 from solver.model.boundary import ResistanceOutlet
 from solver.model.parameters import Model
 from solver.model.profiles import AVERAGE_EXPONENT, axis_ratio

@@ -7,7 +7,8 @@ from thesis_artery import DIASTOLE, RING, SECTOR, artery
 from solver.errors import ModelError, NotFinite
 from solver.geometry.calcification import Patch, scaled_distance
 from solver.geometry.grid import Grid
-from solver.marching.row_stepper import Stepper, parameters
+from solver.marching.row_fields import parameters
+from solver.marching.row_stepper import Stepper
 from solver.marching.semi_implicit import simulate
 from solver.marching.steady import steady_state
 from solver.model.boundary import Inlet, ResistanceOutlet

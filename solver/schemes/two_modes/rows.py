@@ -9,6 +9,7 @@ import numpy as np
 
 from cases.arrays import Floats
 from solver.schemes.convergence import remaining
+from solver.schemes.course import Course, Record, keep, stepping
 from solver.schemes.layout import (
     NON_REFLECTING,
     NOT_CONVERGED,
@@ -292,19 +293,24 @@ def _begin(ws: Workspace, fields: Fields) -> None:
 
 @kernel
 def advance(
-    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Floats, outlet_offsets: Floats
-) -> tuple[int, int, int, int, int]:
-    """Take one step per entry of ``inlet_values`` and ``outlet_offsets``, as the rows' ``advance``."""
-    n, total, extrapolated = 0, 0, False
-    while n < inlet_values.size:
-        if not extrapolated:
-            _begin(ws, fields)
-        status, i, j, sweeps = step(p, s, ws, fields, inlet_values[n], outlet_offsets[n])
-        total += sweeps
-        if status == OK:
-            n, extrapolated = n + 1, True
-        elif extrapolated:  # the past may be a jump, from which no state can be extrapolated
-            extrapolated = False
-        else:
-            return status, i, j, n, total
-    return OK, 0, 0, n, total
+    p: Parameters, course: Course, ws: Workspace, fields: Fields, state: Floats, record: Record
+) -> tuple[int, int, int, int]:
+    """Take the steps of a course, as the rows' ``advance``."""
+    count = course.inlet_values.shape[1]
+    for k in range(course.time_step.size):
+        s = stepping(course, k)
+        n, extrapolated = 0, False
+        while n < count:
+            if not extrapolated:
+                _begin(ws, fields)
+            values = course.inlet_values[k, n], course.outlet_offsets[k, n]
+            status, i, j, sweeps = step(p, s, ws, fields, values[0], values[1])
+            record.sweeps[k] += sweeps
+            if status == OK:
+                n, extrapolated = n + 1, True
+            elif extrapolated:  # the past may be a jump, from which no state can be extrapolated
+                extrapolated = False
+            else:
+                return status, i, j, k * count + n
+        keep(record, k, state, ws.exchanged)
+    return OK, 0, 0, course.inlet_values.size

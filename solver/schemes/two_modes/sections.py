@@ -13,6 +13,7 @@ import numpy as np
 
 from cases.arrays import Floats
 from solver.schemes.convergence import remaining
+from solver.schemes.course import Course, Record, keep, stepping
 from solver.schemes.layout import NOT_CONVERGED, NOT_FINITE, OK, PRESSURE_INLET, REST_VELOCITY, Stepping
 from solver.schemes.sections.ends import end_face_areas, end_walls, share_outlet, spread
 from solver.schemes.sections.rows import (
@@ -278,17 +279,22 @@ def step(
 
 @kernel
 def advance(
-    p: Parameters, s: Stepping, ws: Workspace, fields: Fields, inlet_values: Floats, outlet_offsets: Floats
-) -> tuple[int, int, int, int, int]:
-    """Take one step per entry of ``inlet_values`` and ``outlet_offsets``, as the sections' ``advance``."""
-    n, total, known = 0, 0, 0
-    while n < inlet_values.size:
-        status, i, j, sweeps = step(p, s, ws, fields, inlet_values[n], outlet_offsets[n], min(known, 2))
-        total += sweeps
-        if status == OK:
-            n, known = n + 1, known + 1
-        elif known > 0:  # the past may be a jump, from which no state can be extrapolated
-            known = 0
-        else:
-            return status, i, j, n, total
-    return OK, 0, 0, n, total
+    p: Parameters, course: Course, ws: Workspace, fields: Fields, state: Floats, record: Record
+) -> tuple[int, int, int, int]:
+    """Take the steps of a course, as the sections' ``advance``."""
+    count = course.inlet_values.shape[1]
+    for k in range(course.time_step.size):
+        s = stepping(course, k)
+        n, known = 0, 0
+        while n < count:
+            values = course.inlet_values[k, n], course.outlet_offsets[k, n]
+            status, i, j, sweeps = step(p, s, ws, fields, values[0], values[1], min(known, 2))
+            record.sweeps[k] += sweeps
+            if status == OK:
+                n, known = n + 1, known + 1
+            elif known > 0:  # the past may be a jump, from which no state can be extrapolated
+                known = 0
+            else:
+                return status, i, j, k * count + n
+        keep(record, k, state, ws.exchanged)
+    return OK, 0, 0, course.inlet_values.size
