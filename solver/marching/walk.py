@@ -19,8 +19,7 @@ S = TypeVar("S")
 
 def kept_of(state: Any) -> Kept:
     """Parts of a scheme's state, a dataclass, by name; not those that it has none of."""
-    known = {part.name: getattr(state, part.name) for part in fields(state)}
-    return {name: np.asarray(part) for name, part in known.items() if part is not None}
+    return {name: np.asarray(part) for name, part in vars(state).items() if part is not None}
 
 
 def state_of(scheme: type[S], kept: Kept) -> S:
@@ -83,17 +82,23 @@ def history_of(stops: Sequence[Stop]) -> CellHistory:
         Where a cell has no exponent γ > 0.
     """
     times = np.array([stop.time for stop in stops])
-    exponent = np.array([stop.columns.exponent[1:-1] for stop in stops])
+    columns = [stop.columns for stop in stops]
+    exponent = _joined([each.exponent[1:-1] for each in columns])
     require_exponents(times, exponent)
-    axis = [stop.columns.axis_velocity[1:-1] for stop in stops if stop.columns.axis_velocity is not None]
+    axis = [each.axis_velocity[1:-1] for each in columns if each.axis_velocity is not None]
     crossing = [stop.azimuthal_flux for stop in stops if stop.azimuthal_flux is not None]
     return CellHistory(
         times=times,
-        area=np.array([stop.columns.area[1:-1] for stop in stops]),
-        flow=np.array([stop.columns.flow[1:-1] for stop in stops]),
-        pressure=np.array([stop.columns.pressure[1:-1] for stop in stops]),
+        area=_joined([each.area[1:-1] for each in columns]),
+        flow=_joined([each.flow[1:-1] for each in columns]),
+        pressure=_joined([each.pressure[1:-1] for each in columns]),
         exponent=exponent,
         diagnostics=by_name([stop.diagnostics for stop in stops]),
-        azimuthal_flux=np.array(crossing) if crossing else None,
-        axis_velocity=np.array(axis) if axis else None,
+        azimuthal_flux=_joined(crossing) if crossing else None,
+        axis_velocity=_joined(axis) if axis else None,
     )
+
+
+def _joined(parts: list[Floats]) -> Floats:
+    """Arrays of one shape along a new first axis; for small ones faster than NumPy's own way."""
+    return np.concatenate(parts).reshape(len(parts), *parts[0].shape)
