@@ -8,6 +8,7 @@ import numpy as np
 
 from cases.arrays import Floats
 from solver.schemes.layout import BEYOND_WALL_TABLE, NO_ADMISSIBLE_PROFILE, OK, REST_VELOCITY
+from solver.schemes.sections import one_row
 from solver.schemes.vectorisation import kernel, summing_kernel
 
 
@@ -54,6 +55,8 @@ def wall_areas(
     slopes: Floats,
 ) -> tuple[int, int]:
     """Find A of all cells, and ΣA and ΣdA/dP of all sections; status and section."""
+    if area.shape[1] == 1:
+        return one_row.wall_areas(table, sums, start, step, pressure, area, totals, slopes)
     for i in range(area.shape[0]):
         status = wall_row(table[i], start, step, pressure[i], area[i])
         if status != OK:
@@ -65,6 +68,9 @@ def wall_areas(
 @summing_kernel
 def weighted(old: Floats, new: Floats, theta: float, mean: Floats, totals: Floats) -> None:
     """θ-weighted mean of two 2-D arrays, and its sums over φ."""
+    if old.shape[1] == 1:
+        one_row.weighted(old, new, theta, mean, totals)
+        return
     for i in range(old.shape[0]):
         total = 0.0
         for j in range(old.shape[1]):
@@ -96,6 +102,9 @@ def scaled_rows(values: Floats, factors: Floats, scaled: Floats) -> None:
 def areas_between(old: Floats, new: Floats, theta: float, mean_area: Floats, face_area: Floats) -> None:
     """θ-weighted A in cells, and between them into the inside of rows with ghosts."""
     n = old.shape[1]
+    if n == 1:
+        one_row.areas_between(old, new, theta, mean_area, face_area)
+        return
     for i in range(old.shape[0]):
         for j in range(n):
             mean_area[i, j] = (1.0 - theta) * old[i, j] + theta * new[i, j]
@@ -188,6 +197,9 @@ def profiles(
     ``exponent`` is a fixed γ or 0; ``scale`` is Δt μ/ρ.
     """
     n = flow.shape[1]
+    if n == 1 and exponent > 0.0:
+        one_row.fixed_profiles(face_area, alpha, damping, mean_damping, area_total, exponent, scale)
+        return OK, 0, 0
     inverse, bend, slope = scratch[0], scratch[1], scratch[2]
     for f in range(flow.shape[0]):
         total, areas = 0.0, 0.0
@@ -225,6 +237,9 @@ def momentum_fluxes(
 ) -> None:
     """αQ²/A at cell centres, and θ times the mean over φ of its derivative by either face's Q."""
     n = flow.shape[1]
+    if n == 1:
+        one_row.momentum_fluxes(flow, mean_area, alpha, theta, flux, slopes)
+        return
     for i in range(flux.shape[0]):
         total = 0.0
         for j in range(n):
@@ -252,6 +267,8 @@ def cross_flows(
     ``source`` is scratch (4, n_phi at least).
     """
     n_x, n = area.shape
+    if n == 1:  # a row alone exchanges nothing: W stays 0
+        return
     storage, outflow = dphi * rate, dphi / dx
     balance, level = np.zeros(4), np.zeros(4)
     for first in range(0, n_x, 4):
@@ -303,6 +320,9 @@ def momentum_balance(
     Δt/Δx, ``exchange`` Δt/Δφ.
     """
     n = flow.shape[1]
+    if n == 1:
+        one_row.momentum_balance(old, new, flow, damping, flux, face_area, drive, advection, residual, total)
+        return
     for f in range(1, flow.shape[0] - 1):
         for j in range(n):
             between = 0.25 * exchange * (cross[f - 1, j] + cross[f, j])
@@ -324,6 +344,9 @@ def solve_rows(residual: Floats, face_area: Floats, pull: Floats, matrix: Floats
     ``pull`` is θΔt/(ρΔx) times the change of the pressure's difference on each face; ``matrix`` (3, faces) is
     the same for all rows. With ``outlet_known`` the last face holds δQ already.
     """
+    if residual.shape[1] == 1:
+        one_row.solve_rows(residual, face_area, pull, matrix, outlet_known)
+        return
     faces, n = residual.shape
     lower, pivot, upper = matrix[0], matrix[1], matrix[2]
     last = faces - 1 if outlet_known else faces
@@ -349,6 +372,8 @@ def solve_rows(residual: Floats, face_area: Floats, pull: Floats, matrix: Floats
 @summing_kernel
 def take_change(change: Floats, flow: Floats, totals: Floats) -> tuple[float, float]:
     """Add δQ to the iterate; sums of squares of the change and of the new flow, and its sums over φ."""
+    if flow.shape[1] == 1:
+        return one_row.take_change(change, flow, totals)
     squares, size = 0.0, 0.0
     for f in range(flow.shape[0]):
         total = 0.0
