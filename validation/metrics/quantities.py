@@ -21,14 +21,10 @@ def _pulse(model: xr.Dataset) -> float:
     return float(model["section_pressure"].max() - model["section_pressure"].min())
 
 
-def _pressure_difference(model: xr.Dataset) -> float:
-    pressure = model["section_pressure"]
-    return float((pressure.max("x") - pressure.min("x")).max())
-
-
-def _radius_variation(model: xr.Dataset) -> float:
-    radius = model["radius"]
-    return float((radius.max(("x", "phi")) - radius.min(("x", "phi"))).max())
+def _widest_range(values: xr.DataArray) -> float:
+    """Largest difference of values at one instant."""
+    each = values.transpose("time", ...).to_numpy().reshape(values.sizes["time"], -1)
+    return float(np.fmax.reduce(np.fmax.reduce(each, axis=1) - np.fmin.reduce(each, axis=1)))
 
 
 #: numbers of the cycle, SI
@@ -38,8 +34,8 @@ CYCLE_QUANTITIES: dict[str, Callable[[xr.Dataset], float]] = {
     "pulse_pressure": _pulse,
     "largest_radius": lambda model: float(model["radius"].max()),
     "least_radius": lambda model: float(model["radius"].min()),
-    "largest_pressure_difference": _pressure_difference,
-    "largest_radius_variation": _radius_variation,
+    "largest_pressure_difference": lambda model: _widest_range(model["section_pressure"]),
+    "largest_radius_variation": lambda model: _widest_range(model["radius"]),
 }
 
 
