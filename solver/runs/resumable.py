@@ -35,6 +35,7 @@ from solver.runs.netcdf import append_netcdf, write_netcdf
 from solver.runs.result import CellHistory, cell_fields
 
 PIECE = 25  # states
+MARK = "identity"  # file beside the pieces: of which run they are
 SECONDS = 2.0  # that pieces are held in memory
 LARGEST = 16e6  # bytes of one field that they may take there
 
@@ -115,23 +116,27 @@ def run_to_file(
     """
     folder = _prepare(pieces_folder(result), identity, resume)
     model, times = model_of(case), default_output_times(case)
-    held: dict[Path, Piece] = {}
+    places, held = sorted(folder.glob("*.npz")), dict[Path, Piece]()
     try:
         began = monotonic()
         for path, piece in _computed(case, model, times, folder, progress):
+            places.append(path)
             held[path] = piece
             size = sum(each.cells.pressure.nbytes for each in held.values())
             if size > LARGEST or monotonic() - began > SECONDS:
                 _leave(held)
                 began = monotonic()
-        parts: list[Path | Piece] = [*sorted(folder.glob("*.npz")), *held.values()]
+        parts = [held.get(path, path) for path in places]
         error = wall_locality_error(case, model.section_wall, _widest_of(parts))
         told = {} if error is None else {"wall_locality_error": error}
-        found = _join(case, model, parts, result, attributes | told)
+        try:
+            found = _join(case, model, parts, result, attributes | told)
+        except RuntimeError as failure:  # so netCDF reports a full disk
+            raise SolverError(f"{result}: cannot be written: {failure}") from failure
     except KeyboardInterrupt:
         _leave(held)
         raise
-    shutil.rmtree(folder)
+    _remove(folder)
     return found | told
 
 
@@ -155,7 +160,7 @@ def _computed(
 
 
 def _prepare(folder: Path, identity: str, resume: bool) -> Path:
-    mark = folder / "identity"
+    mark = folder / MARK
     if resume:
         if not mark.is_file():
             raise SolverError(f"{folder}: no interrupted run to resume; run without --resume")
@@ -165,10 +170,16 @@ def _prepare(folder: Path, identity: str, resume: bool) -> Path:
             )
         return folder
     with writing(folder, SolverError):
-        shutil.rmtree(folder, ignore_errors=True)
+        _remove(folder)
         folder.mkdir()
         mark.write_text(identity, encoding="ascii")
     return folder
+
+
+def _remove(folder: Path) -> None:
+    """Remove pieces; first what tells whose they are: from what an interrupt leaves of them none may go on."""
+    (folder / MARK).unlink(missing_ok=True)
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 _ARRAYS = ("times", "area", "flow", "pressure", "exponent")
@@ -200,7 +211,7 @@ def _read(part: Path | Piece) -> Piece:
     """Return a piece, from its place if it is no longer held."""
     if isinstance(part, Piece):
         return part
-    with np.load(part) as stored:
+    with writing(part, SolverError, "cannot be read"), np.load(part) as stored:
         diagnostics = {name: stored[f"diagnostic_{name}"] for name in Diagnostics._fields}
         arrays = {name: stored[name] for name in (*_ARRAYS, *_OPTIONAL) if name in stored.files}
         cells = CellHistory(**arrays, diagnostics=diagnostics)
@@ -216,7 +227,7 @@ def _widest_of(parts: list[Path | Piece]) -> Floats:
         if isinstance(part, Piece):
             profiles.append(widest(part.cells.pressure))
         else:
-            with np.load(part) as stored:
+            with writing(part, SolverError, "cannot be read"), np.load(part) as stored:
                 profiles.append(widest(stored["pressure"]))
     return max(profiles, key=lambda profile: float(np.ptp(profile)))
 

@@ -196,6 +196,51 @@ def test_an_interrupt_of_the_result_keeps_every_piece(run, case_file, monkeypatc
     assert whole.read_bytes() == parts.read_bytes()
 
 
+def test_an_interrupt_of_tidying_up_leaves_nothing_to_go_on_from(run, case_file, monkeypatch):
+    def interrupt(folder, **_):
+        (folder / "00000003.npz").unlink()
+        raise KeyboardInterrupt
+
+    whole, parts = case_file.with_name("whole.nc"), interrupted(run, case_file)
+    assert run(case_file, "--variant", "patch", "--output", whole) == (0, "")
+    with monkeypatch.context() as patched:
+        patched.setattr(running.shutil, "rmtree", interrupt)
+        assert run(case_file, "--variant", "patch", "--output", parts)[0] == 130
+    status, errors = run(case_file, "--variant", "patch", "--output", parts, "--resume")
+    assert (status, "no interrupted run to resume" in errors, parts.exists()) == (2, True, False)
+    assert run(case_file, "--variant", "patch", "--output", parts) == (0, "")
+    assert whole.read_bytes() == parts.read_bytes()
+
+
+def test_a_piece_that_is_gone_is_missed(run, case_file, monkeypatch):
+    """The result has all states of a run or is not written."""
+    output = case_file.with_name("run.nc")
+    left = running._leave
+    monkeypatch.setattr(running, "SECONDS", 0.0)
+
+    def gone(held):
+        left(held)
+        monkeypatch.setattr(running, "SECONDS", 1e9)
+        (pieces_folder(output) / "00000003.npz").unlink()
+
+    monkeypatch.setattr(running, "_leave", gone)
+    missing = pieces_folder(output) / "00000003.npz"
+    expected = (2, f"{missing}: cannot be read: No such file or directory\n")
+    assert run(case_file, "--variant", "patch", "--output", output) == expected
+    assert not output.exists()
+
+
+def test_a_full_disk_is_told(run, case_file, monkeypatch):
+    def full(*_):
+        raise RuntimeError("NetCDF: HDF error")
+
+    output = case_file.with_name("run.nc")
+    monkeypatch.setattr(running, "append_netcdf", full)
+    expected = (2, f"{output}: cannot be written: NetCDF: HDF error\n")
+    assert run(case_file, "--variant", "patch", "--output", output) == expected
+    assert not output.exists()
+
+
 def interrupted(run, case_file):
     output = case_file.with_name("run.nc")
     assert run(case_file, "--variant", "patch", "--output", output, after=10)[0] == 130
