@@ -177,7 +177,7 @@ def _prepare(folder: Path, identity: str, resume: bool) -> Path:
 
 
 def _remove(folder: Path) -> None:
-    """Remove pieces; first what tells whose they are: from what an interrupt leaves of them none may go on."""
+    """Remove pieces; first their mark: no run may go on from what an interrupt leaves of them."""
     (folder / MARK).unlink(missing_ok=True)
     shutil.rmtree(folder, ignore_errors=True)
 
