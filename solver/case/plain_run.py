@@ -10,7 +10,7 @@ from solver.case.model import error_tolerance
 from solver.case.start import initial_state
 from solver.marching.columns import azimuthal_flux_of
 from solver.marching.section_stepper import stepper_of
-from solver.marching.semi_implicit import loosened, stretches
+from solver.marching.semi_implicit import stretches
 from solver.marching.two_modes import mean_axis_velocity
 from solver.marching.walk import require_exponents
 from solver.model.parameters import Model
@@ -47,7 +47,6 @@ def plain_states(case: Case, model: Model, times: Floats, reached: Callable[[], 
     axis = None if model.two_modes is None else np.empty(area.shape[:2])
     crossing = None if model.section_wall is None else np.empty(area.shape)
     stepper, last = stepper_of(model, initial_state(case, model)), 0
-    stepper.tolerance = loosened(stepper.tolerance, case.solver.time_step)
     for stretch in stretches(stepper, times, case.solver.time_step):
         if stretch.failure is not None:
             raise stretch.failure

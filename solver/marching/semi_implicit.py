@@ -123,8 +123,10 @@ def loosened(tolerance: float, time_step: float) -> float:
 def stretches(stepper: Stepper, times: Floats, time_step: float) -> Iterator[Stretch]:
     """States at ``times`` (n,), s, the first of which is there, by equal steps not longer than ``time_step``.
 
-    As many at once as a call of the kernel, which answers to nobody, brings in a fraction of a second.
+    As many at once as a call of the kernel, which answers to nobody, brings in a fraction of a second. The
+    stepper's tolerance is loosened for such steps.
     """
+    stepper.tolerance = loosened(stepper.tolerance, time_step)
     yield _here(stepper)
     counts = np.maximum(1, np.ceil(np.diff(times) / time_step * (1 - 1e-12)).astype(np.int64))
     steps = np.diff(times) / counts
@@ -164,8 +166,6 @@ def snapshots(
     start = initial.copy() if initial else steady_state(model, float(model.inlet.signal(times[0])))
     start.time = float(times[0])
     stepper = stepper_of(model, start)
-    if error_tolerance is None:
-        stepper.tolerance = loosened(stepper.tolerance, time_step)
     wanted = time_step if first_step is None else first_step
     watch = monitor or Monitor(model, Limits())
     if error_tolerance is None:
