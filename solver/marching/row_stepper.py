@@ -24,7 +24,6 @@ from solver.schemes.two_modes import rows as mode_rows
 
 TOLERANCE = 3e-8  # relative error of P and Q (root mean square) at which a step's iteration ends
 MAX_SWEEPS = 60
-DAMPING_RATE = 20.0  # 1/s: θ = ½ + rate·Δt damps the pulse wave and stays second order in time
 
 FAILURES: dict[int, type[RunFailure]] = {
     layout.NO_ADMISSIBLE_PROFILE: NoAdmissibleProfile,
