@@ -119,7 +119,7 @@ def run_to_file(
     places, held = sorted(folder.glob("*.npz")), dict[Path, Piece]()
     try:
         began = monotonic()
-        for path, piece in _computed(case, model, times, folder, progress):
+        for path, piece in _computed(case, model, times, folder, places[-1:], progress):
             places.append(path)
             held[path] = piece
             size = sum(each.cells.pressure.nbytes for each in held.values())
@@ -141,11 +141,10 @@ def run_to_file(
 
 
 def _computed(
-    case: Case, model: Model, times: Floats, folder: Path, progress: Progress
+    case: Case, model: Model, times: Floats, folder: Path, last: list[Path], progress: Progress
 ) -> Iterator[tuple[Path, Piece]]:
-    """Pieces behind those in a folder, as they are computed, each with its place there."""
-    done = sorted(folder.glob("*.npz"))
-    first, kept = (int(done[-1].stem), _read(done[-1]).kept) if done else (0, None)
+    """Pieces behind the last one in a folder, if there is one, as they are computed, each with its place."""
+    first, kept = (int(last[0].stem), _read(last[0]).kept) if last else (0, None)
     taken: list[Stop] = []
     steps = sweeps = 0
     for number, stop in enumerate(walk(case, model, times[first:], kept), start=first):
