@@ -79,6 +79,7 @@ def test_the_picture_shows_the_chosen_samples(browser: Browser, pages: tuple[Pat
     one = open_page(browser, place / "sweep" / "index.html", viewport=WIDE, bypass_csp=True)
     host = one.page.locator("#samples-any")
     host.scroll_into_view_if_needed()
+    host.locator(".plot svg").wait_for()  # the first drawing, in idle time, would replace what is pointed at
     host.get_by_label("output", exact=True).select_option(label="largest error of the lumen radius")
     host.get_by_label("over", exact=True).select_option(label="angular extent of the calcification")
     one.page.wait_for_function(
