@@ -1,6 +1,6 @@
 """Loading a case file: YAML → base and variants → checked cases in SI units."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -198,10 +198,19 @@ def part_of(root: Node, keys: tuple[str, ...]) -> Node:
     return Node({key: node for key, node in root.section.items() if key in keys}, root.line, root.key)
 
 
-def check_section(schema: type[S], node: Node, context: Context | None, problems: list[Problem]) -> S | None:
-    """Return the checked section, or None and more problems."""
+def check_section(
+    schema: type[S],
+    node: Node,
+    context: Context | None,
+    problems: list[Problem],
+    known: Mapping[str, object] | None = None,
+) -> S | None:
+    """Return the checked section, or None and more problems; ``known`` are checked values of some keys."""
+    stated = node.plain()
+    if known and isinstance(stated, dict):
+        stated |= known
     try:
-        return schema.model_validate(node.plain(), context=context)
+        return schema.model_validate(stated, context=context)
     except ValidationError as error:
         problems += problems_of(error, schema, node)
         return None

@@ -13,6 +13,8 @@ from cases.sections.case import Case
 from cases.values.kinds import Context
 
 Keys = tuple[str | int, ...]
+# sections that a case's own checks hand on as they are
+SETTLED = frozenset(Case.model_fields) - {"title", "solver", "compare"}
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ def _untabulated(root: Node) -> dict[str, Node]:
 
 
 def check(
-    template: Template, values: Mapping[Keys, Scalar] | None = None
+    template: Template, values: Mapping[Keys, Scalar] | None = None, unchanged: Case | None = None
 ) -> tuple[Case | None, list[Problem]]:
     """Check a template with some values replaced.
 
@@ -93,6 +95,9 @@ def check(
     template : Template
     values : mapping of path to scalar, optional
         By the keys that lead to each, items counted from 0: what the case file would state there.
+    unchanged : Case, optional
+        The template's own case: what it says of sections without such values is taken from there, and only
+        whether they go together is checked again.
 
     Returns
     -------
@@ -101,14 +106,17 @@ def check(
     list of Problem
         What is wrong.
     """
-    root = template.root
-    for path, value in (values or {}).items():
+    root, changes, problems = template.root, values or {}, list[Problem]()
+    for path, value in changes.items():
         root = _replaced(root, path, value)
-    problems: list[Problem] = []
-    return check_section(Case, root, template.context, problems), problems
+    known = {}
+    if unchanged is not None:
+        kept = SETTLED.intersection(root.section).difference(path[0] for path in changes)
+        known = {key: getattr(unchanged, key) for key in kept}
+    return check_section(Case, root, template.context, problems, known), problems
 
 
-def case_with(template: Template, values: Mapping[Keys, Scalar]) -> Case:
+def case_with(template: Template, values: Mapping[Keys, Scalar], unchanged: Case | None = None) -> Case:
     """Return the case that a template becomes with some values replaced, see :func:`check`.
 
     Raises
@@ -116,7 +124,7 @@ def case_with(template: Template, values: Mapping[Keys, Scalar]) -> Case:
     CaseFileError
         The values are not allowed; a line for each problem with key, what was found and what is allowed.
     """
-    case, problems = check(template, values)
+    case, problems = check(template, values, unchanged)
     if case is None:
         own = f"variants.{template.variant}."
         lines = dict.fromkeys(f"{p.key.removeprefix(own)}: {p.message}" for p in problems)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from small_case import READY, small_case, written
 from small_sweep import small_study
 
+from cases.errors import CaseFileError
 from cases.reading.case_file import load_case_file
 from cases.reading.numeric_keys import numeric_keys
 from cases.reading.template import case_with, load_template
@@ -50,6 +51,25 @@ def test_the_numbers_of_a_case_are_found():
     assert (keys["solver.n_x"].whole, keys["geometry.radius"].whole) == (True, False)
     assert keys["inlet.ramp"].value is None
     assert not {"wall.law", "title", "inlet.waveform", "solver.closure", "inlet.fourier.mean"} & set(keys)
+
+
+FACTORS = st.sampled_from([-1.0, 0.0, 0.1, 0.5, 0.99, 1.01, 2.0, 30.0])
+
+
+@given(st.dictionaries(st.sampled_from(sorted(numeric_keys(BASE))), FACTORS, min_size=1, max_size=3))
+def test_a_sample_is_what_a_check_of_the_whole_case_says(factors):
+    keys = numeric_keys(BASE)
+    values = {
+        keys[name].path: keys[name].stated(factor * (keys[name].value or 1.0))
+        for name, factor in factors.items()
+    }
+    found = []
+    for unchanged in (None, BASE):
+        try:
+            found.append(case_with(TEMPLATE, values, unchanged))
+        except CaseFileError as error:
+            found.append(str(error))
+    assert found[0] == found[1]
 
 
 @given(st.floats(1e-3, 1.4e-2), st.floats(1e-4, 1e-3), st.floats(0.0, 2 * math.pi), st.floats(0.01, 6.2))

@@ -68,8 +68,8 @@ class Samples:
         values = tuple(self.points[number % len(self.points)].tolist())
         keys = [parameter.key for parameter in self.study.parameters]
         try:
-            stated = _stated(self.study.cases[variant], keys, values)
-            case = case_with(self.study.templates[variant], stated)
+            own = self.study.cases[variant]
+            case = case_with(self.study.templates[variant], _stated(own, keys, values), own)
         except CaseFileError as error:
             return Sample(number, variant, values, None, str(error).replace("\n", "; "))
         return Sample(number, variant, values, case)
