@@ -119,8 +119,8 @@ class Workspace(NamedTuple):
     conductance: Floats  # faces: κ
     inverse_area: Floats  # faces
     velocity: Floats  # faces
-    face_area: Floats  # (n_x + 1, n_phi + 2): mean, with periodic ghosts
-    inverse_share: Floats  # (n_x + 1, n_phi + 2): D/u, with periodic ghosts
+    face_area: Floats  # faces: mean
+    inverse_share: Floats  # faces: D/u
     axis_velocity: Floats  # (n_x + 1,): D
     end_pressure: Floats  # (2, n_phi): the iterate's at inlet and outlet
     end_area: Floats  # (2, n_phi): mean, from the end pressures
@@ -140,6 +140,6 @@ def aligned(shape: tuple[int, ...]) -> Floats:
 
 def workspace(n_x: int, n_phi: int) -> Workspace:
     """Allocate the scratch of a run."""
-    cells, faces, ghosted = (n_x, n_phi), (n_x + 1, n_phi), (n_x + 1, n_phi + 2)
-    shapes = [*[cells] * 9, *[faces] * 8, *[ghosted] * 2, (n_x + 1,), *[(2, n_phi)] * 5, (2,)]
+    cells, faces = (n_x, n_phi), (n_x + 1, n_phi)
+    shapes = [*[cells] * 9, *[faces] * 10, (n_x + 1,), *[(2, n_phi)] * 5, (2,)]
     return Workspace(*(aligned(shape) for shape in shapes))

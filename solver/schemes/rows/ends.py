@@ -16,7 +16,6 @@ from solver.schemes.layout import (
     Stepping,
     Workspace,
 )
-from solver.schemes.rows.profile import wrap
 from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel, summing_kernel
 from solver.schemes.walls import wall_area
 
@@ -65,23 +64,20 @@ def end_areas(p: Parameters, ws: Workspace, theta: float) -> tuple[int, int, int
 
 
 @kernel
-def face_areas(mean_area: Floats, end_area: Floats, inlet_kind: int, mirrored: bool, area: Floats) -> None:
-    """Mean areas of all faces, with ghosts: half-way between cells, at the ends from the end's pressure.
+def face_areas(mean_area: Floats, end_area: Floats, inlet_kind: int, area: Floats) -> None:
+    """Mean areas of all faces: half-way between cells, at the ends from the end's pressure.
 
     At a velocity or flow inlet, which has no pressure of its own, half a cell beyond the first two cells.
     """
-    n_x, n_phi = mean_area.shape
-    for f in range(1, n_x):
-        for j in range(n_phi):
-            area[f, j + 1] = 0.5 * (mean_area[f - 1, j] + mean_area[f, j])
-    for j in range(n_phi):
-        area[n_x, j + 1] = end_area[OUTLET, j]
+    (n_x, n), cells, faces = mean_area.shape, mean_area.flat, area.flat
+    for k in range(n, mean_area.size):
+        faces[k] = 0.5 * (cells[k - n] + cells[k])
+    for j in range(n):
+        area[n_x, j] = end_area[OUTLET, j]
         if inlet_kind == PRESSURE_INLET:
-            area[0, j + 1] = end_area[INLET, j]
+            area[0, j] = end_area[INLET, j]
         else:
-            area[0, j + 1] = 1.5 * mean_area[0, j] - 0.5 * mean_area[1, j]
-    for f in range(n_x + 1):
-        wrap(area, f, mirrored)
+            area[0, j] = 1.5 * mean_area[0, j] - 0.5 * mean_area[1, j]
 
 
 @inlined_kernel

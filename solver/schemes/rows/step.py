@@ -86,7 +86,7 @@ def _coefficients(p: Parameters, s: Stepping, ws: Workspace) -> tuple[int, int, 
         exponent = p.fixed_exponent if p.fixed_exponent > 0.0 else POISEUILLE  # of a row that is its own mean
         fixed_sources(ws.mean_area, ws.end_area, p.inlet_kind, exponent, scale, ws.alpha, ws.damping)
         return OK, 0, 0
-    face_areas(ws.mean_area, ws.end_area, p.inlet_kind, p.mirrored, ws.face_area)
+    face_areas(ws.mean_area, ws.end_area, p.inlet_kind, ws.face_area)
     status, f, j = closure_sources(
         ws.mean_flow,
         ws.face_area,

@@ -68,11 +68,13 @@ class Workspace(NamedTuple):
     row_damping: Floats  # faces: mean Δt S of rows that deviate from their section
     around: Floats  # (4, n_phi + 2)
     velocity: Floats  # (faces, n_phi + 2): u, with ghosts
+    face_area: Floats  # (faces, n_phi + 2): θ-weighted A of rows, with ghosts
 
 
 def workspace(base: Any, n_x: int, n_phi: int) -> Workspace:
     """Allocate the scratch of a run beside that of its scheme."""
     faces = n_x + 1
     shapes: list[tuple[int, ...]] = [(faces,)] * 6
-    shapes += [(3, faces), (faces, n_phi), (n_x,), (n_x,), (faces,), (4, n_phi + 2), (faces, n_phi + 2)]
+    shapes += [(3, faces), (faces, n_phi), (n_x,), (n_x,), (faces,), (4, n_phi + 2)]
+    shapes += [(faces, n_phi + 2)] * 2
     return Workspace(base, base.exchanged, *(aligned(shape) for shape in shapes))

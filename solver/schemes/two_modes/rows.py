@@ -30,7 +30,6 @@ from solver.schemes.rows.ends import (
 )
 from solver.schemes.rows.mass import accept_flow, accept_pressure, eliminate, substitute
 from solver.schemes.rows.momentum import predict
-from solver.schemes.rows.profile import wrap
 from solver.schemes.rows.step import accept, begin_at_state, means, start
 from solver.schemes.sections.step import thomas
 from solver.schemes.two_modes.axis import axis_momentum, taken
@@ -48,12 +47,22 @@ from solver.schemes.vectorisation import inlined_kernel, kernel, part_of_kernel,
 
 
 @kernel
-def _velocities(flow: Floats, face_area: Floats, mirrored: bool, velocity: Floats) -> None:
-    """Find u of all faces with ghosts (faces, n_phi + 2)."""
+def _wrap(values: Floats, f: int, mirrored: bool) -> None:
+    """Fill the two ghosts of a face's rows: periodic, or the mirror images of the first and the last row."""
+    last = values.shape[1] - 1
+    values[f, 0] = values[f, 1] if mirrored else values[f, last - 1]
+    values[f, last] = values[f, last - 1] if mirrored else values[f, 1]
+
+
+@kernel
+def _velocities(flow: Floats, area: Floats, mirrored: bool, face_area: Floats, velocity: Floats) -> None:
+    """A and u of all faces, A (faces, n_phi), with ghosts (faces, n_phi + 2)."""
     for f in range(flow.shape[0]):
         for j in range(flow.shape[1]):
-            velocity[f, j + 1] = flow[f, j] / face_area[f, j + 1]
-        wrap(velocity, f, mirrored)
+            face_area[f, j + 1] = area[f, j]
+            velocity[f, j + 1] = flow[f, j] / area[f, j]
+        _wrap(face_area, f, mirrored)
+        _wrap(velocity, f, mirrored)
 
 
 @kernel
@@ -70,8 +79,8 @@ def _share_exchange(flow: Floats, dphi: float, damping: Floats, excess: Floats) 
 def _profiles(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None:
     """Fluxes in cells and viscous terms on faces, at the means."""
     w, b, m = ws.base, p.base, p.modes
-    face_areas(w.mean_area, w.end_area, b.inlet_kind, b.mirrored, w.face_area)
-    _velocities(w.mean_flow, w.face_area, b.mirrored, ws.velocity)
+    face_areas(w.mean_area, w.end_area, b.inlet_kind, w.face_area)
+    _velocities(w.mean_flow, w.face_area, b.mirrored, ws.face_area, ws.velocity)
     if m.momentum:
         weighted_axis(s.theta, fields.axis_velocity, ws.axis, ws.mean_axis)
     else:
@@ -80,7 +89,7 @@ def _profiles(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None
     fluxes(
         m, w.mean_flow, w.mean_area, ws.mean_axis, s.theta, w.momentum_flux, ws.section_slope, ws.row_slope
     )
-    viscous_terms(m, ws.velocity, w.face_area, ws.mean_axis, scale, b.dphi, ws.around, w.damping, ws.excess)
+    viscous_terms(m, ws.velocity, ws.face_area, ws.mean_axis, scale, b.dphi, ws.around, w.damping, ws.excess)
     if w.mean_flow.shape[1] > 1:
         _share_exchange(w.mean_flow, b.dphi, w.damping, ws.excess)
 
@@ -234,7 +243,7 @@ def _follow_axis(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> t
         ws.axis_drive,
         fields.flow,
         w.iterate_flow,
-        w.face_area,
+        ws.face_area,
         b.inlet_kind,
         total / w.iterate_flow.shape[1],
         ws.axis_matrix,
