@@ -87,10 +87,11 @@ def cell_fields(model: Model, cells: CellHistory, names: Collection[str] | None 
 
 def cell_dataset(model: Model, cells: CellHistory, names: Collection[str] | None = None) -> xr.Dataset:
     """Fields of :func:`cell_fields`, on time (s), x (m) and phi (rad)."""
-    fields = cell_fields(model, cells, names)
-    dataset = coordinates(cells.times, model.grid.x, model.grid.phi)
-    dataset = dataset.assign({name: described(name, values) for name, values in fields.items()})
-    return dataset.assign_attrs(Conventions=CONVENTIONS)
+    import xarray as xr
+
+    fields = {name: described(name, values) for name, values in cell_fields(model, cells, names).items()}
+    axes = coordinates(cells.times, model.grid.x, model.grid.phi)
+    return xr.Dataset(fields, axes.coords, {"Conventions": CONVENTIONS})
 
 
 def _of_profiles(model: Model, cells: CellHistory) -> dict[str, Callable[[], Floats]]:

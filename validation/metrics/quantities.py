@@ -17,25 +17,30 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def _pulse(model: xr.Dataset) -> float:
-    return float(model["section_pressure"].max() - model["section_pressure"].min())
+def _largest(model: xr.Dataset, name: str) -> float:
+    return float(np.fmax.reduce(model.variables[name].to_numpy(), axis=None))
 
 
-def _widest_range(values: xr.DataArray) -> float:
+def _least(model: xr.Dataset, name: str) -> float:
+    return float(np.fmin.reduce(model.variables[name].to_numpy(), axis=None))
+
+
+def _widest_range(model: xr.Dataset, name: str) -> float:
     """Largest difference of values at one instant."""
-    each = values.transpose("time", ...).to_numpy().reshape(values.sizes["time"], -1)
+    values = model.variables[name].transpose("time", ...)
+    each = values.to_numpy().reshape(values.sizes["time"], -1)
     return float(np.fmax.reduce(np.fmax.reduce(each, axis=1) - np.fmin.reduce(each, axis=1)))
 
 
 #: numbers of the cycle, SI
 CYCLE_QUANTITIES: dict[str, Callable[[xr.Dataset], float]] = {
-    "systolic_pressure": lambda model: float(model["section_pressure"].max()),
-    "diastolic_pressure": lambda model: float(model["section_pressure"].min()),
-    "pulse_pressure": _pulse,
-    "largest_radius": lambda model: float(model["radius"].max()),
-    "least_radius": lambda model: float(model["radius"].min()),
-    "largest_pressure_difference": lambda model: _widest_range(model["section_pressure"]),
-    "largest_radius_variation": lambda model: _widest_range(model["radius"]),
+    "systolic_pressure": lambda model: _largest(model, "section_pressure"),
+    "diastolic_pressure": lambda model: _least(model, "section_pressure"),
+    "pulse_pressure": lambda model: _largest(model, "section_pressure") - _least(model, "section_pressure"),
+    "largest_radius": lambda model: _largest(model, "radius"),
+    "least_radius": lambda model: _least(model, "radius"),
+    "largest_pressure_difference": lambda model: _widest_range(model, "section_pressure"),
+    "largest_radius_variation": lambda model: _widest_range(model, "radius"),
 }
 
 

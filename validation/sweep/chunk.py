@@ -98,7 +98,9 @@ def _run(sample: Sample, case: Case, plan: Plan) -> Record:
 
 def _at(whole: xr.Dataset, instants: Floats) -> xr.Dataset:
     """States at instants of a run; without copying them where they follow each other."""
-    places = np.searchsorted(whole["time"].to_numpy(), instants)
+    places = np.searchsorted(whole.variables["time"].to_numpy(), instants)
+    if places.size == whole.sizes["time"]:
+        return whole
     follow = np.array_equal(places, np.arange(places[0], places[0] + places.size))
     return whole.isel(time=slice(places[0], places[0] + places.size)) if follow else whole.sel(time=instants)
 

@@ -52,16 +52,21 @@ class Output:
     bands: tuple[Band, ...] = ()
 
 
+def _values(last: xr.Dataset, name: str) -> Floats:
+    """Values of a field on its dimensions in the table of fields, which a run's results have."""
+    return np.asarray(last.variables[name].to_numpy())
+
+
 def _at_end(index: int, number: Callable[[Floats], float]) -> Measure:
     def measure(_case: Case, last: xr.Dataset) -> float:
-        return number(last["section_pressure"].to_numpy()[:, index])
+        return number(_values(last, "section_pressure")[:, index])
 
     return measure
 
 
 def _mean_over_cycle(index: int) -> Measure:
     def measure(_case: Case, last: xr.Dataset) -> float:
-        pressure, times = last["section_pressure"].to_numpy()[:, index], last["time"].to_numpy()
+        pressure, times = _values(last, "section_pressure")[:, index], _values(last, "time")
         return float(np.trapezoid(pressure, times) / (times[-1] - times[0]))
 
     return measure
@@ -75,7 +80,7 @@ def _patch_section(case: Case, last: xr.Dataset) -> int:
     """Section nearest to the centre of the calcification, of several the first; mid-length without one."""
     parts = case.calcification.parts
     ends = parts[0].x if parts else (0.0, case.geometry.length)
-    return int(np.argmin(np.abs(last["x"].to_numpy() - 0.5 * (ends[0] + ends[1]))))
+    return int(np.argmin(np.abs(_values(last, "x") - 0.5 * (ends[0] + ends[1]))))
 
 
 def _patch_row(case: Case, last: xr.Dataset) -> int:
@@ -85,7 +90,7 @@ def _patch_row(case: Case, last: xr.Dataset) -> int:
         return 0
     first, end = part.phi
     centre = first + 0.5 * ((end - first) % (2.0 * np.pi))
-    phi = last["phi"].to_numpy()
+    phi = _values(last, "phi")
     apart = np.abs(np.exp(1j * phi) - np.exp(1j * centre))
     if phi.max() < np.pi:  # rows of one half, which stand for their mirror images
         apart = np.minimum(apart, np.abs(np.exp(-1j * phi) - np.exp(1j * centre)))
@@ -97,17 +102,15 @@ def _growth(radius: Floats) -> float:
 
 
 def _radius_change(case: Case, last: xr.Dataset) -> float:
-    section = last["radius"].isel(x=_patch_section(case, last))
-    return _growth(section.mean("phi").to_numpy())
+    return _growth(_values(last, "radius")[:, _patch_section(case, last)].mean(axis=-1))
 
 
 def _calcified_radius_change(case: Case, last: xr.Dataset) -> float:
-    section = last["radius"].isel(x=_patch_section(case, last))
-    return _growth(section.isel(phi=_patch_row(case, last)).to_numpy())
+    return _growth(_values(last, "radius")[:, _patch_section(case, last), _patch_row(case, last)])
 
 
 def _flow_amplitude(_case: Case, last: xr.Dataset) -> float:
-    return float(np.ptp(last["section_flow_rate"].isel(x=last.sizes["x"] // 2).to_numpy()))
+    return float(np.ptp(_values(last, "section_flow_rate")[:, last.sizes["x"] // 2]))
 
 
 def _cycle_change(_case: Case, last: xr.Dataset) -> float:
@@ -160,7 +163,7 @@ OWN: Mapping[str, tuple[Output, Measure]] = MappingProxyType(_own_outputs())
 
 def _size(name: str, field: str) -> tuple[Output, Measure]:
     def measure(_case: Case, last: xr.Dataset) -> float:
-        return float(np.abs(last[field].to_numpy()).max())
+        return float(np.abs(_values(last, field)).max())
 
     return _like(name, f"size of the {FIELDS[field].label}", FIELDS[field]), measure
 
