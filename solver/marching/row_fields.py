@@ -66,7 +66,7 @@ def outlet_numbers(model: Model) -> OutletNumbers:
 def parameters(model: Model) -> layout.Parameters:
     """Parameters of the kernels from a model."""
     table = model.wall_table
-    compliance = layout.aligned((model.grid.n_x, model.grid.n_phi))
+    (compliance,) = layout.arrays([(model.grid.n_x, model.grid.n_phi)])
     compliance[...] = model.radius**2 / model.stiffness
     return layout.Parameters(
         dx=float(model.grid.dx),

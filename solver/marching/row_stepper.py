@@ -18,7 +18,8 @@ from solver.marching.kernel import Kernel
 from solver.marching.row_fields import offsets, parameters, parts_of
 from solver.model.parameters import Model, State, States
 from solver.schemes import layout
-from solver.schemes.course import Course, Record, joined, record, split
+from solver.schemes.course import Course, Record, record
+from solver.schemes.layout import joined, split
 from solver.schemes.rows.step import advance
 from solver.schemes.two_modes import rows as mode_rows
 

@@ -11,7 +11,6 @@ from solver.marching.row_fields import parts_of as parts_of_rows
 from solver.marching.row_stepper import Stepper
 from solver.model.parameters import Model, State, States
 from solver.schemes import layout
-from solver.schemes.course import split
 from solver.schemes.sections import layout as section_layout
 from solver.schemes.sections.step import advance
 from solver.schemes.two_modes import sections as mode_sections
@@ -37,7 +36,7 @@ class SectionStepper(Stepper):
         return parts_of(self.model, state)
 
     def _states_of(self, times: Floats, whole: Floats) -> States:
-        area, flow, sections, reservoir, *axis = split(whole, self._kernel.shapes)
+        area, flow, sections, reservoir, *axis = layout.split(whole, self._kernel.shapes)
         pressure = np.repeat(sections[..., None], self.model.grid.n_phi, axis=-1)
         parts = pressure[:, 1:-1], pressure[:, 0], pressure[:, -1], reservoir[:, 0]
         return States(times, area, flow, *parts, two_modes.own_axis(self.model, axis))

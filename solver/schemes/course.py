@@ -1,15 +1,12 @@
 """What the semi-implicit kernels march through in one call, and what they keep on the way."""
 
-from math import prod
 from typing import NamedTuple
 
 import numpy as np
 
 from cases.arrays import Floats, Integers
-from solver.schemes.layout import CACHE_LINE, Stepping, aligned
+from solver.schemes.layout import Stepping
 from solver.schemes.vectorisation import kernel
-
-Shapes = tuple[tuple[int, ...], ...]
 
 
 class Course(NamedTuple):
@@ -35,7 +32,7 @@ class Course(NamedTuple):
 
 
 class Record(NamedTuple):
-    """State after each interval (n, size), as in :func:`split`, and what happened in it.
+    """State after each interval (n, size), as `layout.split` parts it, and what happened in it.
 
     ``exchanged`` (n, 2), the volumes that passed inlet and outlet, m³; ``sweeps`` (n,) in all.
     """
@@ -48,27 +45,6 @@ class Record(NamedTuple):
 def record(count: int, size: int) -> Record:
     """Room for the states after ``count`` intervals."""
     return Record(np.empty((count, size)), np.zeros((count, 2)), np.zeros(count, dtype=np.int64))
-
-
-def joined(shapes: Shapes) -> Floats:
-    """Zeros of one array that holds parts of these shapes; see :func:`split`."""
-    return aligned((sum(_room(shape) for shape in shapes),))
-
-
-def split(whole: Floats, shapes: Shapes) -> list[Floats]:
-    """Views (..., *shape) of the parts of ``whole`` (..., size); each begins on a cache line if that does."""
-    parts, start = [], 0
-    for shape in shapes:
-        part = whole[..., start : start + prod(shape)]
-        parts.append(part.reshape(*whole.shape[:-1], *shape))
-        start += _room(shape)
-    return parts
-
-
-def _room(shape: tuple[int, ...]) -> int:
-    """Numbers from one part's begin to the next."""
-    line = CACHE_LINE // 8
-    return -(-prod(shape) // line) * line
 
 
 @kernel

@@ -1,5 +1,7 @@
 """What the semi-implicit kernels share: status codes, kinds, and the arrays they work on (SI)."""
 
+from collections.abc import Sequence
+from math import prod
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +17,8 @@ BEYOND_WALL_TABLE = 5
 
 VELOCITY_INLET, FLOW_INLET, PRESSURE_INLET = 0, 1, 2
 SECTION_RESISTANCE, ROW_RESISTANCE, WINDKESSEL, NON_REFLECTING = 0, 1, 2, 3
+
+Shapes = Sequence[tuple[int, ...]]
 
 CACHE_LINE = 64  # bytes
 REST_VELOCITY = 1e-9  # m/s: a section slower than this is at rest and has γ = 2
@@ -130,16 +134,37 @@ class Workspace(NamedTuple):
     exchanged: Floats  # (2,): volumes that passed inlet and outlet since last reset, m³
 
 
-def aligned(shape: tuple[int, ...]) -> Floats:
-    """Zeros that begin on a cache line, so that no vector of a row straddles two."""
-    size = int(np.prod(shape))
+def joined(shapes: Shapes) -> Floats:
+    """Zeros of one array that holds parts of these shapes, see :func:`split`; it begins on a cache line."""
+    size = sum(_room(shape) for shape in shapes)
     buffer = np.zeros(size + CACHE_LINE // 8)
     start = -buffer.ctypes.data % CACHE_LINE // 8
-    return buffer[start : start + size].reshape(shape)
+    return buffer[start : start + size]
+
+
+def split(whole: Floats, shapes: Shapes) -> list[Floats]:
+    """Views (..., *shape) of the parts of ``whole`` (..., size); each begins on a cache line if that does."""
+    parts, start = [], 0
+    for shape in shapes:
+        part = whole[..., start : start + prod(shape)]
+        parts.append(part.reshape(*whole.shape[:-1], *shape))
+        start += _room(shape)
+    return parts
+
+
+def _room(shape: tuple[int, ...]) -> int:
+    """Numbers from one part's begin to the next."""
+    line = CACHE_LINE // 8
+    return -(-prod(shape) // line) * line
+
+
+def arrays(shapes: Shapes) -> list[Floats]:
+    """Zeros of these shapes, each of which begins on a cache line: no vector of a row straddles two."""
+    return split(joined(shapes), shapes)
 
 
 def workspace(n_x: int, n_phi: int) -> Workspace:
     """Allocate the scratch of a run."""
     cells, faces = (n_x, n_phi), (n_x + 1, n_phi)
     shapes = [*[cells] * 9, *[faces] * 10, (n_x + 1,), *[(2, n_phi)] * 5, (2,)]
-    return Workspace(*(aligned(shape) for shape in shapes))
+    return Workspace(*arrays(shapes))

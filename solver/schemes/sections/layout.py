@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from cases.arrays import Floats
-from solver.schemes.layout import aligned
+from solver.schemes.layout import arrays
 
 
 class Parameters(NamedTuple):
@@ -110,4 +110,4 @@ def workspace(n_x: int, n_phi: int) -> Workspace:
     shapes += [(n_x, n_phi + 1), faces, faces, faces, pair, pair, (5, n_phi + 2)]
     shapes += [(n_x + 2,)] * 3 + [(n_x,)] * 5 + [(n_x + 1,)] * 6
     shapes += [(3, n_x + 1)] * 2 + [(n_x + 1,), (2,)]
-    return Workspace(*(aligned(shape) for shape in shapes))
+    return Workspace(*arrays(shapes))

@@ -3,7 +3,7 @@
 from typing import Any, NamedTuple
 
 from cases.arrays import Floats
-from solver.schemes.layout import aligned
+from solver.schemes.layout import arrays
 
 
 class Modes(NamedTuple):
@@ -77,4 +77,4 @@ def workspace(base: Any, n_x: int, n_phi: int) -> Workspace:
     shapes: list[tuple[int, ...]] = [(faces,)] * 6
     shapes += [(3, faces), (faces, n_phi), (n_x,), (n_x,), (faces,), (4, n_phi + 2)]
     shapes += [(faces, n_phi + 2)] * 2
-    return Workspace(base, base.exchanged, *(aligned(shape) for shape in shapes))
+    return Workspace(base, base.exchanged, *arrays(shapes))
