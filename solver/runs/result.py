@@ -23,14 +23,6 @@ AXES = {  # unit and words
 }
 
 
-def coordinates(time: Floats, x: Floats, phi: Floats) -> xr.Dataset:
-    """Dataset that holds only the coordinates time (s), x (m) and phi (rad)."""
-    import xarray as xr
-
-    values = {"time": time, "x": x, "phi": phi}
-    return xr.Dataset(coords={name: (name, values[name], words) for name, words in AXES.items()})
-
-
 def words_of(name: str) -> dict[str, str]:
     """Attributes of a field in a result: its unit, and what the table of fields calls it."""
     field = FIELDS[name]
@@ -89,9 +81,10 @@ def cell_dataset(model: Model, cells: CellHistory, names: Collection[str] | None
     """Fields of :func:`cell_fields`, on time (s), x (m) and phi (rad)."""
     import xarray as xr
 
+    places = {"time": cells.times, "x": model.grid.x, "phi": model.grid.phi}
+    axes = {name: xr.Variable(name, places[name], words) for name, words in AXES.items()}
     fields = {name: described(name, values) for name, values in cell_fields(model, cells, names).items()}
-    axes = coordinates(cells.times, model.grid.x, model.grid.phi)
-    return xr.Dataset(fields, axes.coords, {"Conventions": CONVENTIONS})
+    return xr.Dataset(axes | fields, attrs={"Conventions": CONVENTIONS})
 
 
 def _of_profiles(model: Model, cells: CellHistory) -> dict[str, Callable[[], Floats]]:
