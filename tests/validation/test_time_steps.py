@@ -21,7 +21,7 @@ from validation.sweep.command import main
 from validation.sweep.samples import samples_of_study
 from validation.sweep.standards import Standard
 from validation.sweep.study import load_study
-from validation.sweep.time_steps import chosen_steps, words
+from validation.sweep.time_steps import words
 
 MODULUS = "calcification.youngs_modulus"
 TIMES = np.linspace(0.0, 1.0, 101)  # s, a state every 10 ms
@@ -83,39 +83,6 @@ def test_a_step_at_which_a_run_fails_is_not_chosen():
     assert chosen(1e-3, TIMES, 0.0, numbers, ones, 1e-3).time_step == pytest.approx(0.0025)
     always = chosen(1e-3, TIMES, 0.0, lambda _: np.full((3, 2), np.nan), ones, 1e-3)
     assert (always.time_step, always.error) == (1e-3, np.inf)
-
-
-def test_the_search_may_begin_with_a_shorter_step():
-    def begun(longest):
-        return chosen(1e-3, TIMES, 0.0, lambda _: np.ones((1, 1)), ones, 1e-3, longest).time_step
-
-    assert [begun(longest) for longest in (1.0, 0.005, 0.0025, 1e-3)] == pytest.approx(
-        [0.005, 0.005, 0.0025, 1e-3]
-    )
-
-
-@pytest.mark.parametrize("strays", [False, True])
-def test_few_samples_tell_which_steps_all_of_them_try(tmp_path, strays):
-    """A quarter of them tries the first steps; where another errs by more, all try the next one too."""
-    moduli = {"start": "1 MPa", "stop": "20 MPa", "count": 128}
-    study = small_study(tmp_path, parameters={MODULUS: moduli}, overrides=FINE, error_tolerance=1e-3)
-    plan = Plan((MODULUS,), study.outputs, {"local": Standard("none", "local")})
-    tried = []
-
-    def run(some, wanted):
-        tried.extend((sample.case.solver.time_step, sample.number) for sample in some)
-        factors = [180.0 if strays and sample.number == 127 else 20.0 for sample in some]
-        steps = [sample.case.solver.time_step for sample in some]
-        values = [1.0 + factor * step**2 for factor, step in zip(factors, steps, strict=True)]
-        return [dict.fromkeys((output.name for output in wanted.outputs), value) for value in values]
-
-    found = chosen_steps(samples_of_study(study), plan, run)["local"]
-    assert found.samples == 16
-    assert len(tried) == len(set(tried))
-    judges = {step: sum(each == step for each, _ in tried) for step, _ in tried}
-    assert (judges[found.time_step_s], judges[0.5 * found.time_step_s]) == (16, 16)
-    assert judges[max(judges)] == 4
-    assert sum(judges.values()) == (52 if strays else 36)
 
 
 def test_an_explicit_or_adaptive_step_is_not_chosen(tmp_path):

@@ -51,13 +51,7 @@ def at_step(case: Case, time_step: float) -> Case:
 
 
 def chosen(
-    own: float,
-    times: Floats,
-    cycle_begins: float,
-    numbers: Numbers,
-    scales: Scales,
-    limit: float,
-    longest: float = np.inf,
+    own: float, times: Floats, cycle_begins: float, numbers: Numbers, scales: Scales, limit: float
 ) -> Choice:
     """Longest step whose error is at most ``limit``; the case's own where that errs by more too.
 
@@ -80,8 +74,6 @@ def chosen(
         Takes such numbers and returns what the errors of each are divided by (n_numbers,).
     limit : float
         Largest error allowed, relative.
-    longest : float
-        Step that is tried first, s, unless it is longer than the longest that could be.
     """
     known: dict[bytes, Floats] = {}
 
@@ -99,7 +91,7 @@ def chosen(
 
     interval = float(np.max(np.diff(times[times >= cycle_begins * SHORTER])))
     most = int(np.ceil(interval / own * SHORTER))  # the case's own steps between two states
-    pieces = int(np.ceil(interval / min(LONGEST * own, interval, longest) * SHORTER))
+    pieces = int(np.ceil(interval / min(LONGEST * own, interval) * SHORTER))
     while pieces < most:
         choice = judged(interval / pieces)
         if choice.error <= limit:

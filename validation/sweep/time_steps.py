@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -17,7 +16,6 @@ from validation.sweep.samples import Sample, Samples
 from validation.sweep.standards import instants_of
 
 ONE_OF = 8  # samples of which one is judged, so that judging costs less than it saves
-SCOUTS = 4  # samples that judge of which one looks ahead, so that most steps are tried by few
 SMALL = 0.01  # of a field's size: an output below it, a small difference, is measured by that
 TIME_STEP = "solver.time_step"
 
@@ -50,27 +48,16 @@ def chosen_steps(samples: Samples, plan: Plan, run: RunAll) -> dict[str, ChosenT
 def _chosen(base: Case, some: Sequence[Sample], plan: Plan, run: RunAll, limit: float) -> ChosenTimeStep:
     wider = replace(plan, outputs=(*plan.outputs, *(size for size, _ in SIZES.values())))
 
-    names = [output.name for output in wider.outputs]
-    known: dict[tuple[float, int], list[float]] = {}
-
-    def numbers(judges: Sequence[Sample], step: float) -> Floats:
-        missing = [
-            replace(each, case=at_step(each.case, step))
-            for each in judges
-            if each.case is not None and (step, each.number) not in known
-        ]
-        for sample, record in zip(missing, run(missing, wider), strict=True):
-            known[step, sample.number] = [record[name] for name in names]
-        return np.array([known[step, each.number] for each in judges], dtype=float)
-
-    def scales(values: Floats) -> Floats:
-        return _scales(values, wider.outputs)
+    def numbers(step: float) -> Floats:
+        taken = [replace(each, case=at_step(each.case, step)) for each in some if each.case is not None]
+        names = [output.name for output in wider.outputs]
+        records = run(taken, wider)
+        return np.array([[record[name] for name in names] for record in records], dtype=float)
 
     own = base.solver.time_step
     times = run_times(base, instants_of(plan.standards[some[0].variant], base))
     begins = (base.solver.cycles - 1) * base.inlet.period
-    few = chosen(own, times, begins, partial(numbers, some[::SCOUTS]), scales, limit)
-    found = chosen(own, times, begins, partial(numbers, some), scales, limit, few.time_step)
+    found = chosen(own, times, begins, numbers, lambda values: _scales(values, wider.outputs), limit)
     return ChosenTimeStep(
         time_step_s=found.time_step,
         case_time_step_s=own,
