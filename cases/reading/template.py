@@ -96,8 +96,8 @@ def check(
     values : mapping of path to scalar, optional
         By the keys that lead to each, items counted from 0: what the case file would state there.
     unchanged : Case, optional
-        The template's own case: what it says of sections without such values is taken from there, and only
-        whether they go together is checked again.
+        The template's own case: sections of `SETTLED` without such values are taken from there, and only
+        whether they go with the others is checked again.
 
     Returns
     -------

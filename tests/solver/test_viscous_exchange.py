@@ -116,6 +116,27 @@ def test_a_row_without_an_admissible_profile_is_told(row, share):
     assert (status, found) == (NO_ADMISSIBLE_PROFILE, row)
 
 
+def test_a_row_that_rounding_makes_as_fast_as_the_axis_is_told():
+    """The kernel takes u times 1/D, which may be 1 where u/D is just below."""
+    velocity = np.array([np.nextafter(1.842, 0.0), 0.384, 0.461, 0.997])
+    status, found, _, _ = closure(np.ones(4), velocity)
+    assert (status, found) == (NO_ADMISSIBLE_PROFILE, 0)
+
+
+def test_a_face_at_rest_beside_moving_ones():
+    moving, still = np.array([0.09, 0.1, 0.11, 0.1]), np.zeros(4)
+    flow = MEAN_AREA * np.array([moving, still, moving])
+    *scratch, alpha, source = (np.empty((3, 4)) for _ in range(5))
+    area = np.full((3, 4), MEAN_AREA)
+    status, _, _ = closure_sources(
+        flow, area, KINEMATIC_VISCOSITY, np.pi / 2, False, *scratch, np.empty(3), alpha, source
+    )
+    assert status == OK
+    for face, velocity in enumerate((moving, still, moving)):
+        for found, alone in zip((alpha[face], source[face]), kernel(area[0], velocity), strict=True):
+            np.testing.assert_allclose(found, alone, rtol=1e-14)
+
+
 @pytest.mark.parametrize(
     ("kind", "inlet"), [(VELOCITY_INLET, 10.0), (FLOW_INLET, 10.0), (PRESSURE_INLET, 9.0)]
 )

@@ -69,9 +69,10 @@ def _at_rest(velocity: Floats, f: int) -> bool:
 
 @kernel
 def _inadmissible_row(f: int, velocity: Floats, axis_velocity: float) -> int:
-    """First row with u/D outside ]0, 1[, or -1."""
+    """First row with u/D, rounded as in :func:`_shares`, outside ]0, 1[, or -1."""
+    scale = 1.0 / axis_velocity
     for j in range(velocity.shape[1]):
-        if not 0.0 < velocity[f, j] / axis_velocity < 1.0:
+        if not 0.0 < velocity[f, j] * scale < 1.0:
             return j
     return -1
 
@@ -197,7 +198,7 @@ def closure_sources(
     mirrored : bool
         Whether the rows are one half of the ring.
     inverse_area, velocity, inverse_share : ndarray (n_x + 1, n_phi)
-        Scratch: 1/A, u and D/u.
+        Scratch: 1/A, u, and u/D, then D/u.
     axis_velocity : ndarray (n_x + 1,)
         Scratch: D, or 0 where a face is at rest.
     alpha, source : ndarray (n_x + 1, n_phi)

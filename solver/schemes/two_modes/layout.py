@@ -68,7 +68,7 @@ class Workspace(NamedTuple):
     row_damping: Floats  # faces: mean Δt S of rows that deviate from their section
     around: Floats  # (4, n_phi + 2)
     velocity: Floats  # (faces, n_phi + 2): u, with ghosts
-    face_area: Floats  # (faces, n_phi + 2): θ-weighted A of rows, with ghosts
+    face_area: Floats  # (faces, n_phi + 2): θ-weighted A, with ghosts; unused with pressures of sections
 
 
 def workspace(base: Any, n_x: int, n_phi: int) -> Workspace:
