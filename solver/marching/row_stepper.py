@@ -19,7 +19,6 @@ from solver.marching.row_fields import offsets, parameters, parts_of
 from solver.model.parameters import Model, State, States
 from solver.schemes import layout
 from solver.schemes.course import Course, Record, record
-from solver.schemes.layout import joined, split
 from solver.schemes.rows.step import advance
 from solver.schemes.two_modes import rows as mode_rows
 
@@ -81,8 +80,8 @@ class Stepper:
         self.sweeps = 0
         self.tolerance = TOLERANCE
         self._kernel = self._prepared()
-        self._state = joined(self._kernel.shapes)
-        self._parts = split(self._state, self._kernel.shapes)
+        self._state = layout.joined(self._kernel.shapes)
+        self._parts = layout.split(self._state, self._kernel.shapes)
         self._fields = self._kernel.fields(*self._parts)
         self.restore(state)
 
@@ -100,7 +99,7 @@ class Stepper:
 
     def _states_of(self, times: Floats, whole: Floats) -> States:
         """States at times (n,), s, of which ``whole`` (n, size) holds the fields."""
-        area, flow, pressure, inlet, outlet, reservoir, *axis = split(whole, self._kernel.shapes)
+        area, flow, pressure, inlet, outlet, reservoir, *axis = layout.split(whole, self._kernel.shapes)
         known = two_modes.own_axis(self.model, axis)
         return States(times, area, flow, pressure, inlet, outlet, reservoir[:, 0], known)
 

@@ -104,4 +104,4 @@ def values_of(quantity: str, model: xr.Dataset) -> Floats:
         return np.array([CYCLE_QUANTITIES[quantity](model)])
     if quantity in DERIVED_QUANTITIES:
         return DERIVED_QUANTITIES[quantity](model)
-    return np.asarray(model[quantity].to_numpy(), dtype=float)
+    return np.asarray(model.variables[quantity].to_numpy(), dtype=float)

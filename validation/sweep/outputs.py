@@ -16,7 +16,7 @@ from cases.sections.calcification import LocalCalcification, NoCalcification
 from cases.sections.case import Case
 from cases.sections.compare import Band
 from cases.statistics import statistic_of
-from validation.metrics.quantities import CYCLE_QUANTITIES
+from validation.metrics.quantities import CYCLE_QUANTITIES, values_of
 from validation.sweep.judging import Against, judged_bands
 
 if TYPE_CHECKING:
@@ -52,21 +52,16 @@ class Output:
     bands: tuple[Band, ...] = ()
 
 
-def _values(last: xr.Dataset, name: str) -> Floats:
-    """Values of a field on its dimensions in the table of fields, which a run's results have."""
-    return np.asarray(last.variables[name].to_numpy())
-
-
 def _at_end(index: int, number: Callable[[Floats], float]) -> Measure:
     def measure(_case: Case, last: xr.Dataset) -> float:
-        return number(_values(last, "section_pressure")[:, index])
+        return number(values_of("section_pressure", last)[:, index])
 
     return measure
 
 
 def _mean_over_cycle(index: int) -> Measure:
     def measure(_case: Case, last: xr.Dataset) -> float:
-        pressure, times = _values(last, "section_pressure")[:, index], _values(last, "time")
+        pressure, times = values_of("section_pressure", last)[:, index], values_of("time", last)
         return float(np.trapezoid(pressure, times) / (times[-1] - times[0]))
 
     return measure
@@ -80,7 +75,7 @@ def _patch_section(case: Case, last: xr.Dataset) -> int:
     """Section nearest to the centre of the calcification, of several the first; mid-length without one."""
     parts = case.calcification.parts
     ends = parts[0].x if parts else (0.0, case.geometry.length)
-    return int(np.argmin(np.abs(_values(last, "x") - 0.5 * (ends[0] + ends[1]))))
+    return int(np.argmin(np.abs(values_of("x", last) - 0.5 * (ends[0] + ends[1]))))
 
 
 def _patch_row(case: Case, last: xr.Dataset) -> int:
@@ -90,7 +85,7 @@ def _patch_row(case: Case, last: xr.Dataset) -> int:
         return 0
     first, end = part.phi
     centre = first + 0.5 * ((end - first) % (2.0 * np.pi))
-    phi = _values(last, "phi")
+    phi = values_of("phi", last)
     apart = np.abs(np.exp(1j * phi) - np.exp(1j * centre))
     if phi.max() < np.pi:  # rows of one half, which stand for their mirror images
         apart = np.minimum(apart, np.abs(np.exp(-1j * phi) - np.exp(1j * centre)))
@@ -102,15 +97,15 @@ def _growth(radius: Floats) -> float:
 
 
 def _radius_change(case: Case, last: xr.Dataset) -> float:
-    return _growth(_values(last, "radius")[:, _patch_section(case, last)].mean(axis=-1))
+    return _growth(values_of("radius", last)[:, _patch_section(case, last)].mean(axis=-1))
 
 
 def _calcified_radius_change(case: Case, last: xr.Dataset) -> float:
-    return _growth(_values(last, "radius")[:, _patch_section(case, last), _patch_row(case, last)])
+    return _growth(values_of("radius", last)[:, _patch_section(case, last), _patch_row(case, last)])
 
 
 def _flow_amplitude(_case: Case, last: xr.Dataset) -> float:
-    return float(np.ptp(_values(last, "section_flow_rate")[:, last.sizes["x"] // 2]))
+    return float(np.ptp(values_of("section_flow_rate", last)[:, last.sizes["x"] // 2]))
 
 
 def _cycle_change(_case: Case, last: xr.Dataset) -> float:
@@ -163,7 +158,7 @@ OWN: Mapping[str, tuple[Output, Measure]] = MappingProxyType(_own_outputs())
 
 def _size(name: str, field: str) -> tuple[Output, Measure]:
     def measure(_case: Case, last: xr.Dataset) -> float:
-        return float(np.abs(_values(last, field)).max())
+        return float(np.abs(values_of(field, last)).max())
 
     return _like(name, f"size of the {FIELDS[field].label}", FIELDS[field]), measure
 
