@@ -30,6 +30,7 @@ from solver.model.boundary import Inlet, PressureOutlet
 from solver.model.parameters import uniform_state
 from solver.model.profiles import TwoModes
 from solver.model.waveform import FourierSeries, constant
+from solver.schemes.two_modes.rows import velocities
 
 pytestmark = pytest.mark.slow  # compiles a scheme that no other quick test needs
 
@@ -259,3 +260,15 @@ def test_second_order_around_the_artery(closure):
     states = [driven(closure, 20, n_phi) for n_phi in (8, 16, 32, 64)]
     found = [[s.flow.std(axis=1), *faces(s, 1)] for s in states]
     assert_second_order(found)
+
+
+@pytest.mark.parametrize(("mirrored", "beside"), [(False, [-2, 1]), (True, [1, -2])])
+def test_rows_have_neighbours_beyond_the_first_and_the_last(mirrored, beside):
+    """The other end of a ring; on one half of it, the mirror images."""
+    area, flow = 1.0 + np.arange(12.0).reshape(3, 4), np.arange(12.0, 24.0).reshape(3, 4)
+    found, u = np.empty((3, 6)), np.empty((3, 6))
+    velocities(flow, area, mirrored, found, u)
+    np.testing.assert_array_equal(found[:, 1:-1], area)
+    np.testing.assert_array_equal(u[:, 1:-1], flow / area)
+    for values in (found, u):
+        np.testing.assert_array_equal(values[:, [0, -1]], values[:, beside])

@@ -55,7 +55,7 @@ def _wrap(values: Floats, f: int, mirrored: bool) -> None:
 
 
 @kernel
-def _velocities(flow: Floats, area: Floats, mirrored: bool, face_area: Floats, velocity: Floats) -> None:
+def velocities(flow: Floats, area: Floats, mirrored: bool, face_area: Floats, velocity: Floats) -> None:
     """A and u of all faces, A (faces, n_phi), with ghosts (faces, n_phi + 2)."""
     for f in range(flow.shape[0]):
         for j in range(flow.shape[1]):
@@ -80,7 +80,7 @@ def _profiles(p: Parameters, s: Stepping, ws: Workspace, fields: Fields) -> None
     """Fluxes in cells and viscous terms on faces, at the means."""
     w, b, m = ws.base, p.base, p.modes
     face_areas(w.mean_area, w.end_area, b.inlet_kind, w.face_area)
-    _velocities(w.mean_flow, w.face_area, b.mirrored, ws.face_area, ws.velocity)
+    velocities(w.mean_flow, w.face_area, b.mirrored, ws.face_area, ws.velocity)
     if m.momentum:
         weighted_axis(s.theta, fields.axis_velocity, ws.axis, ws.mean_axis)
     else:
